@@ -1,0 +1,77 @@
+"""What the robot senses at one moment: a laser scan and where it was taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """A position and heading; the frame is stated by whoever hands it out.
+
+    Attributes
+    ----------
+    x_m, y_m : float
+        Metres.
+    theta_rad : float
+        Radians, counter-clockwise, 0 along the x axis.
+    """
+
+    x_m: float
+    y_m: float
+    theta_rad: float
+
+
+@dataclass(frozen=True)
+class LaserScan:
+    """One sweep of a planar laser.
+
+    Attributes
+    ----------
+    ranges_m : ndarray, shape (beams,), float64
+        Range of each beam in metres, in order of rising bearing (from the right
+        to the left). NaN marks a beam without any answer; a no-return value is
+        whatever the source wrote and is dealt with by conditioning.
+    angle_min_rad : float
+        Bearing of the first beam; 0 is straight ahead, positive is left.
+    angle_increment_rad : float
+        Step between neighbouring beams, positive.
+    """
+
+    ranges_m: NDArray[np.float64]
+    angle_min_rad: float
+    angle_increment_rad: float
+
+    @cached_property
+    def bearings_rad(self) -> NDArray[np.float64]:
+        """Bearing of each beam, shape (beams,)."""
+        return self.angle_min_rad + self.angle_increment_rad * np.arange(len(self.ranges_m))
+
+
+@dataclass(frozen=True, slots=True)
+class Observation:
+    """One record of a source: what was sensed, when and from where.
+
+    Attributes
+    ----------
+    index : int
+        0-based order of the scan in its source.
+    t_s : float
+        Seconds, never falling within a source.
+    pose : Pose
+        Pose of the sensor in the frame that the source states.
+    scan : LaserScan
+        The laser's readings.
+    true_pose : Pose or None
+        The true pose where a simulator knows it.
+    """
+
+    index: int
+    t_s: float
+    pose: Pose
+    scan: LaserScan
+    true_pose: Pose | None = None
