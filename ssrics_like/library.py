@@ -1,0 +1,67 @@
+"""Find the project's content: rule sets, profiles, scenarios.
+
+The content folders stand beside the package in a checkout and inside it in an
+installed wheel. Users name an entry, or give the path of a file of their own.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ssrics_like.errors import LibraryError, choices, nearest
+
+KINDS = ("productions", "perception", "memory", "scenarios")
+SUFFIXES = (".yaml", ".yml")
+
+
+def root() -> Path:
+    """Return the folder that holds the four content folders."""
+    package = Path(__file__).resolve().parent
+    installed = package / "_library"
+    return installed if installed.is_dir() else package.parent
+
+
+def folder(kind: str) -> Path:
+    """Return the content folder of a kind.
+
+    Raises
+    ------
+    LibraryError
+        There is no such kind.
+    """
+    if kind not in KINDS:
+        raise LibraryError(
+            f"no library folder '{kind}'{nearest(kind, KINDS)}; the folders are {choices(KINDS)}"
+        )
+    return root() / kind
+
+
+def entries(kind: str) -> dict[str, Path]:
+    """Return name -> file of the library's entries of a kind, sorted by name."""
+    return {path.stem: path for path in sorted(folder(kind).glob("*.yaml"))}
+
+
+def find(kind: str, name: str | Path) -> Path:
+    """Return the file of a library entry, or of the user's own file.
+
+    A name with a folder or a YAML ending is a path; anything else is an entry.
+
+    Raises
+    ------
+    LibraryError
+        No entry or file has this name.
+    """
+    text = str(name)
+    if isinstance(name, Path) or "/" in text or "\\" in text or text.endswith(SUFFIXES):
+        path = Path(text)
+        if path.is_file():
+            return path
+        what = "is a folder, expected a YAML file" if path.is_dir() else "no such file"
+        raise LibraryError(f"{path}: {what}")
+    known = entries(kind)
+    if text in known:
+        return known[text]
+    raise LibraryError(
+        f"no {kind} entry '{text}'{nearest(text, known)}; "
+        f"the library has {choices(known)} (a path ends in .yaml)"
+    )

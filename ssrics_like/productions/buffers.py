@@ -1,0 +1,194 @@
+"""The model's buffers: pyactr buffers that hand requests to Python modules.
+
+pyactr calls ``retrieve`` on a buffer for ``+buffer>`` and ``test`` for
+``?buffer>``; those two are the whole hook. As in ACT-R, a request first clears
+the buffer, a cleared chunk goes to declarative memory, and a failure leaves the
+module free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from pyactr import buffers, chunks, goals, utilities
+
+from ssrics_like.productions.interface import (
+    BufferChunk,
+    DeclarativeModule,
+    LandmarkModule,
+    MarkRequest,
+    SlotTest,
+)
+
+Harvest = Callable[[BufferChunk, float], None]
+
+
+def pyactr_chunk(chunk_type: str, slots: Mapping[str, str]) -> Any:
+    """Build a pyactr chunk that is not registered under a name (registered ones capture words)."""
+    values = {
+        slot: utilities.VarvalClass(values=value, variables=None, negvalues=(), negvariables=())
+        for slot, value in slots.items()
+    }
+    return chunks.Chunk(chunk_type, **values)
+
+
+def slots_of(chunk: Any) -> dict[str, str]:
+    """Return a pyactr chunk's slots that have a value."""
+    return {
+        slot: str(value.values)
+        for slot, value in chunk
+        if isinstance(value, utilities.VarvalClass) and value.values not in (None, "None")
+    }
+
+
+class _ModuleBuffer(buffers.Buffer):
+    """A buffer that harvests on clearing and is free again after a failure."""
+
+    def __init__(self, harvest: Harvest | None) -> None:
+        super().__init__()
+        self._harvest = harvest
+        self._name: str | None = None
+
+    @property
+    def content(self) -> BufferChunk | None:
+        """The chunk that the buffer holds."""
+        for chunk in self:
+            return BufferChunk(chunk.typename, slots_of(chunk), self._name)
+        return None
+
+    def put(self, chunk: BufferChunk) -> None:
+        """Set the buffer's chunk."""
+        super().add(pyactr_chunk(chunk.chunk_type, chunk.slots))
+        self._name = chunk.name
+
+    def add(self, elem: Any, time: float = 0.0) -> None:  # noqa: ARG002 - pyactr's signature
+        """Set the chunk that a request produced (called by pyactr)."""
+        super().add(elem)
+
+    def clear(self, time: float = 0.0, harvest: Any = None) -> None:  # noqa: ARG002
+        """Empty the buffer; its chunk goes to declarative memory (called by pyactr)."""
+        content = self.content
+        for chunk in tuple(self):
+            self.discard(chunk)
+        if content is not None and self._harvest is not None:
+            self._harvest(content, time)
+        self._name = None
+
+    def test(self, state: str, inquiry: str) -> bool:
+        """Answer ``?buffer> state ...``."""
+        if inquiry == "free":
+            return bool(self.state != "busy")
+        return bool(self.state == inquiry)
+
+    def test_buffer(self, inquiry: str) -> bool:
+        """Answer ``?buffer> buffer ...``."""
+        if inquiry == "failure":
+            return bool(self.state == "error")
+        return (inquiry == "full") == bool(len(self))
+
+
+class OrientingBuffer(_ModuleBuffer):
+    """Holds the reflex that perception fired last."""
+
+    def test(self, state: str, inquiry: str) -> bool:
+        """Answer ``?orienting> novelty_above x`` too; an empty buffer answers no."""
+        if state in ("novelty_above", "novelty_below"):
+            content = self.content
+            if content is None:
+                return False
+            novelty = float(content.slots["novelty"])
+            return novelty > float(inquiry) if state == "novelty_above" else novelty < float(inquiry)
+        return super().test(state, inquiry)
+
+
+class RetrievalBuffer(_ModuleBuffer):
+    """Asks declarative memory."""
+
+    def __init__(
+        self,
+        harvest: Harvest | None,
+        module: DeclarativeModule,
+        sources: Callable[[], Mapping[str, tuple[str, ...]]],
+    ) -> None:
+        super().__init__(harvest)
+        self._module = module
+        self._sources = sources
+
+    def retrieve(
+        self, time: float, otherchunk: Any, actrvariables: Any, buffers: Any,  # noqa: ARG002
+        extra_tests: Any, model_parameters: Any,  # noqa: ARG002 - pyactr's signature
+    ) -> tuple[Any, float]:
+        """Start a retrieval (called by pyactr)."""
+        self.clear(time)
+        tests = []
+        for slot, value in otherchunk.removeunused():
+            bound = utilities.check_bound_vars(actrvariables, value, negative_impossible=False)
+            if bound.values is not None:
+                tests.append(SlotTest(slot, str(bound.values)))
+            tests += [SlotTest(slot, str(word), negated=True) for word in bound.negvalues]
+        result = self._module.recall(otherchunk.typename, tests, time, self._sources())
+        if result.chunk is None:
+            return None, result.latency_s
+        self._name = result.chunk.name
+        return pyactr_chunk(result.chunk.chunk_type, result.chunk.slots), result.latency_s
+
+
+class LandmarkBuffer(_ModuleBuffer):
+    """Sends decisions to the landmark module; holds the chunk of a new landmark."""
+
+    def __init__(
+        self, harvest: Harvest | None, module: LandmarkModule, rule: Callable[[], str]
+    ) -> None:
+        super().__init__(harvest)
+        self._module = module
+        self._rule = rule
+
+    def retrieve(
+        self, time: float, otherchunk: Any, actrvariables: Any, buffers: Any,  # noqa: ARG002
+        extra_tests: Any, model_parameters: Any,  # noqa: ARG002 - pyactr's signature
+    ) -> tuple[Any, float]:
+        """Carry a decision out (called by pyactr)."""
+        self.clear(time)
+        slots = {
+            slot: str(utilities.check_bound_vars(actrvariables, value).values)
+            for slot, value in otherchunk.removeunused()
+        }
+        made = self._module.mark(
+            MarkRequest(slots["outcome"], slots["event"], slots.get("landmark"), self._rule(), time)
+        )
+        if made is None:
+            return None, 0.0
+        self._name = made.name
+        return pyactr_chunk(made.chunk_type, made.slots), 0.0
+
+
+class ImaginalBuffer(goals.Goal):
+    """Builds a chunk over a delay; harvests into the project's own memory."""
+
+    def __init__(self, harvest: Harvest | None, delay: float) -> None:
+        super().__init__(delay=delay)
+        self._harvest = harvest
+
+    @property
+    def content(self) -> BufferChunk | None:
+        """The chunk that the buffer holds."""
+        for chunk in self:
+            return BufferChunk(chunk.typename, slots_of(chunk))
+        return None
+
+    def clear(self, time: float = 0.0, harvest: Any = None) -> None:  # noqa: ARG002
+        """Empty the buffer; its chunk goes to declarative memory (called by pyactr)."""
+        content = self.content
+        for chunk in tuple(self):
+            self.discard(chunk)
+        if content is not None and self._harvest is not None:
+            self._harvest(content, time)
+
+    def test(self, state: str, inquiry: str) -> bool:  # noqa: ARG002 - pyactr's signature
+        """Answer ``?buffer> state ...``."""
+        return bool(self.state == inquiry)
+
+    def test_buffer(self, inquiry: str) -> bool:
+        """Answer ``?buffer> buffer ...``; building a chunk cannot fail."""
+        return inquiry in ("full", "empty") and (inquiry == "full") == bool(len(self))

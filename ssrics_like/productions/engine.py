@@ -1,0 +1,318 @@
+"""Runs a rule set on pyactr; the only place that touches pyactr's internals.
+
+Chunks are pushed in from outside at the moment a reflex fires, so that pyactr
+costs nothing between reflexes. Each rule's two sides are built once; pyactr
+would parse them anew at every conflict resolution.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from ssrics_like.errors import EngineError
+from ssrics_like.productions.interface import (
+    BufferChunk,
+    DeclarativeModule,
+    LandmarkModule,
+    TraceEvent,
+)
+from ssrics_like.productions.rulebook import Rule, Rulebook
+from ssrics_like.productions.syntax import Clause
+from ssrics_like.productions.tracing import Tracer
+
+# pyactr's source has escapes that newer Pythons warn of, and it warns of interrupted requests,
+# which the trace shows; neither is the user's concern.
+warnings.filterwarnings("ignore", module=r"pyactr.*")
+
+import pyactr  # noqa: E402
+from pyactr import chunks, utilities  # noqa: E402
+
+from ssrics_like.productions import buffers  # noqa: E402
+
+PYACTR_VERSION = "0.3.2"
+IDLE_LIMIT_S = 60.0
+"""A rule set that still fires this long after its last input is taken to run for ever."""
+
+
+def probe() -> None:
+    """Check that pyactr is the version whose internals this file reads.
+
+    Raises
+    ------
+    EngineError
+        It is another version, or an internal name is missing.
+    """
+    found = version("pyactr")
+    if found != PYACTR_VERSION:
+        raise EngineError(
+            f"pyactr {found} is installed; ssrics-like needs exactly {PYACTR_VERSION}, "
+            f"because the engine builds on its internals (pip install pyactr=={PYACTR_VERSION})"
+        )
+    model = pyactr.ACTRModel()
+    for owner, name in (
+        (model, "_ACTRModel__buffers"),
+        (pyactr.simulation.Simulation, "__activate__"),
+        (pyactr.simulation.Simulation, "__printevent__"),
+        (chunks.Chunk, "_chunktypes"),
+    ):
+        if not hasattr(owner, name):
+            raise EngineError(f"pyactr {found} lacks the internal name {name}; reinstall pyactr")
+
+
+class Engine:
+    """A rule set at work.
+
+    Parameters
+    ----------
+    rulebook : Rulebook
+        The rules, their chunk types and the first goal.
+    memory : DeclarativeModule
+        Answers ``+retrieval>`` and takes in cleared chunks.
+    landmarks : LandmarkModule
+        Answers ``+landmark>``.
+    seed : int
+        For utility noise.
+    trace : callable
+        Receives every TraceEvent as it happens.
+    stock : mapping, optional
+        Parity mode: pyactr's own declarative memory, goal buffers and rule parser, with these
+        model parameters of pyactr. `memory` is then not asked.
+
+    Raises
+    ------
+    EngineError
+        Another version of pyactr is installed.
+    """
+
+    def __init__(
+        self,
+        rulebook: Rulebook,
+        memory: DeclarativeModule,
+        landmarks: LandmarkModule,
+        *,
+        seed: int = 0,
+        trace: Callable[[TraceEvent], None] = lambda _: None,
+        stock: Mapping[str, Any] | None = None,
+    ) -> None:
+        probe()
+        self.rulebook = rulebook
+        self.firings = 0
+        self._rules = {rule.name: rule for rule in rulebook.rules}
+        self._random = np.random.RandomState(seed).get_state()
+        self._noisy = rulebook.parameters.utility_noise > 0
+        self._fired = ""
+        for name, slots in rulebook.chunk_types.items():
+            chunks.chunktype(name, " ".join(slots))
+        model = pyactr.ACTRModel(
+            subsymbolic=True,
+            rule_firing=rulebook.parameters.rule_firing,
+            utility_noise=rulebook.parameters.utility_noise,
+            **(stock or {}),
+        )
+        self._buffers = self._wire(model, memory, landmarks, is_stock=stock is not None)
+        for rule in rulebook.rules:
+            if stock is None:
+                model.productions.update({rule.name: _compiled(rule)})
+            else:
+                text = "\n".join(line.partition("#")[0] for line in rule.source.splitlines())
+                model.productionstring(name=rule.name, string=text, utility=rule.utility)
+        self._simulation = model.simulation(gui=False, trace=False)
+        self._environment = self._simulation._Simulation__simulation
+        self._used_rules = model.productions.used_rulenames
+        self._tracer = Tracer(self._rules, self._content, trace)
+        self._simulation.__printevent__ = self._note
+        self._tracer.emit(0.0, "goal", "set-buffer-chunk", "g")
+
+    def _wire(
+        self, model: Any, memory: DeclarativeModule, landmarks: LandmarkModule, *, is_stock: bool
+    ) -> dict[str, Any]:
+        """Put the model's buffers in place and the first goal into its buffer."""
+        kept = self.rulebook.harvest
+        delay = self.rulebook.parameters.imaginal_delay
+
+        def harvest(buffer: str) -> Callable[[BufferChunk, float], None] | None:
+            return memory.harvest if buffer in kept else None
+
+        made: dict[str, Any] = {
+            "orienting": buffers.OrientingBuffer(harvest("orienting")),
+            "landmark": buffers.LandmarkBuffer(
+                harvest("landmark"), landmarks, lambda: self._fired
+            ),
+        }
+        if is_stock:
+            made["g"], made["retrieval"] = model.goal, model.retrieval
+            made["imaginal"] = model.set_goal("imaginal", delay)
+        else:
+            made["g"] = buffers.ImaginalBuffer(harvest("g"), 0.0)
+            made["imaginal"] = buffers.ImaginalBuffer(harvest("imaginal"), delay)
+            made["retrieval"] = buffers.RetrievalBuffer(
+                harvest("retrieval"), memory, self._sources
+            )
+            model.retrievals["retrieval"] = made["retrieval"]
+            model.goals.update(g=made["g"], imaginal=made["imaginal"])
+        model._ACTRModel__buffers.update(made)
+        slots = {slot: word for slot, word in self.rulebook.goal.items() if slot != "isa"}
+        made["g"].add(buffers.pyactr_chunk(self.rulebook.goal["isa"], slots))
+        return made
+
+    @property
+    def now_s(self) -> float:
+        """Engine time in seconds."""
+        return float(self._simulation.show_time())
+
+    @property
+    def idle(self) -> bool:
+        """Whether nothing is left to happen until the next push."""
+        return bool(self._environment.peek() == float("inf"))
+
+    def push(self, buffer: str, chunk: BufferChunk, t_s: float) -> BufferChunk | None:
+        """Put a chunk into a perceptual buffer at a time and wake the productions.
+
+        Parameters
+        ----------
+        buffer : str
+            ``orienting``.
+        chunk : BufferChunk
+            The chunk.
+        t_s : float
+            Engine time, not before `now_s`.
+
+        Returns
+        -------
+        BufferChunk or None
+            The unattended chunk that this one overwrote.
+        """
+        self._run(t_s)
+        overwritten: BufferChunk | None = self._buffers[buffer].content
+        self._buffers[buffer].put(chunk)
+        event = utilities.Event(self.now_s, buffer, "PUSHED")
+        self._simulation.__printevent__(event)
+        self._simulation.__activate__(event)
+        return overwritten
+
+    def waiting(self, buffer: str) -> BufferChunk | None:
+        """Return the chunk that a buffer holds."""
+        return self._content(buffer)
+
+    def advance(self, t_s: float) -> None:
+        """Let happen all that happens before `t_s`; costs next to nothing when idle."""
+        if self._environment.peek() < t_s:
+            self._run(t_s)
+
+    def settle(self) -> None:
+        """Run until nothing is left to happen.
+
+        Raises
+        ------
+        EngineError
+            The rules still fire a minute after the last input.
+        """
+        limit = self.now_s + IDLE_LIMIT_S
+        while not self.idle:
+            self._run(self._environment.peek() + 1e-4)
+            if self.now_s > limit and not self.idle:
+                raise EngineError(
+                    f"{self.rulebook.path}: the rules still fire {IDLE_LIMIT_S:g} s after the last "
+                    f"input (last: '{self._fired}'); a rule must change what it tests"
+                )
+        self._tracer.flush()
+
+    def _run(self, t_s: float) -> None:
+        until = round(t_s, 4)  # pyactr's clock has tenths of a millisecond
+        if until <= self.now_s:
+            return
+        with self._own_random():
+            try:
+                # Not simulation.run(until): some versions of simpy leave its stop event queued,
+                # after which the model never looks idle.
+                arrival = self._environment.timeout(until - self._environment.now)
+                while not arrival.processed:
+                    self._environment.step()
+            except utilities.ACTRError as e:
+                raise EngineError(f"{self.rulebook.path}: rule '{self._fired}': {e}") from e
+        self._used_rules.clear()  # a record for utility learning that would grow without end
+
+    @contextmanager
+    def _own_random(self) -> Iterator[None]:
+        """Give pyactr, which draws from numpy's global generator, this model's own stream."""
+        if not self._noisy:
+            yield
+            return
+        outside = np.random.get_state()  # noqa: NPY002
+        np.random.set_state(self._random)  # noqa: NPY002
+        try:
+            yield
+        finally:
+            self._random = np.random.get_state()  # noqa: NPY002
+            np.random.set_state(outside)  # noqa: NPY002
+
+    def _note(self, event: Any) -> None:
+        """Receive each event of pyactr, in place of its printing."""
+        self._simulation.current_event = event
+        if event.action == utilities._UNKNOWN:
+            return
+        if event.proc == utilities._PROCEDURAL and event.action.startswith("RULE FIRED: "):
+            self._fired = event.action.removeprefix("RULE FIRED: ")
+            self.firings += 1
+        self._tracer.translate(float(event.time), event.proc, event.action)
+
+    def _content(self, buffer: str) -> BufferChunk | None:
+        holder = self._buffers.get(buffer)
+        for chunk in holder if holder is not None else ():
+            return BufferChunk(chunk.typename, buffers.slots_of(chunk))
+        return None
+
+    def _sources(self) -> dict[str, tuple[str, ...]]:
+        """Return the values in the goal and imaginal chunks: sources of spreading activation."""
+        found = {}
+        for buffer in ("g", "imaginal"):
+            content = self._content(buffer)
+            if content is not None:
+                found[buffer] = tuple(content.slots.values())
+        return found
+
+
+def _compiled(rule: Rule) -> dict[str, Any]:
+    """Build pyactr's form of a rule: a generator of its two sides, built only once."""
+    left = {str(c)[:-1]: _query(c) if c.sign == "?" else _chunk(c) for c in rule.text.tests}
+    right = {
+        str(c)[:-1]: None if c.sign == "~" else _chunk(c, filled=False) for c in rule.text.actions
+    }
+
+    def sides() -> Iterator[dict[str, Any]]:
+        yield left
+        yield right
+
+    return {"rule": sides, "utility": rule.utility, "reward": None}
+
+
+def _query(clause: Clause) -> dict[str, str]:
+    return {pair.slot: pair.word for pair in clause.pairs}
+
+
+def _chunk(clause: Clause, *, filled: bool = True) -> Any:
+    """Build the chunk of one side of a clause.
+
+    In a test (`filled`), a variable matches only a slot that has a value, as in ACT-R; pyactr
+    alone would bind it to nothing.
+    """
+    parts: dict[str, dict[str, Any]] = {}
+    for pair in clause.pairs:
+        part = parts.setdefault(
+            pair.slot, {"values": None, "variables": None, "negvalues": (), "negvariables": ()}
+        )
+        kind = "variables" if pair.variable else "values"
+        if pair.negated:
+            part[f"neg{kind}"] += (pair.word,)
+        else:
+            part[kind] = pair.word
+        if filled and pair.variable:
+            part["negvalues"] += ("None",)
+    slots = {slot: utilities.VarvalClass(**part) for slot, part in parts.items()}
+    return chunks.Chunk(clause.chunk_type, **slots)

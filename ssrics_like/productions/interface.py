@@ -1,0 +1,120 @@
+"""What the engine asks of the modules it is joined to, and what it tells.
+
+The engine knows declarative memory and the marking of landmarks only by these
+protocols, so that the modules of the mind do not import one another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+
+@dataclass(frozen=True)
+class BufferChunk:
+    """A chunk as it stands in a buffer: plain words.
+
+    Attributes
+    ----------
+    chunk_type : str
+        Its type.
+    slots : mapping
+        Slot -> value; slots without a value are absent.
+    name : str or None
+        The name of the chunk in declarative memory, where it has one.
+    """
+
+    chunk_type: str
+    slots: Mapping[str, str]
+    name: str | None = None
+
+
+@dataclass(frozen=True)
+class SlotTest:
+    """One slot of a retrieval request: the value asked for, or excluded."""
+
+    slot: str
+    value: str
+    negated: bool = False
+
+
+@dataclass(frozen=True)
+class Recall:
+    """What a retrieval gave: the chunk (or None) and how long it takes, in seconds."""
+
+    chunk: BufferChunk | None
+    latency_s: float
+
+
+class DeclarativeModule(Protocol):
+    """Declarative memory as the engine sees it."""
+
+    def recall(
+        self,
+        chunk_type: str,
+        tests: Sequence[SlotTest],
+        t_s: float,
+        sources: Mapping[str, Sequence[str]],
+    ) -> Recall:
+        """Answer a ``+retrieval>`` request made at `t_s`; `sources` are the buffers' values."""
+
+    def harvest(self, chunk: BufferChunk, t_s: float) -> None:
+        """Take in a chunk whose buffer was cleared at `t_s`."""
+
+
+@dataclass(frozen=True)
+class MarkRequest:
+    """A ``+landmark>`` request: what a rule decided about a reflex.
+
+    Attributes
+    ----------
+    outcome : str
+        One of ``vocabulary.OUTCOMES``.
+    event : str
+        The event slot of the reflex.
+    landmark : str or None
+        The landmark that was recognised, if the rule names one.
+    rule : str
+        The production that fired.
+    t_s : float
+        When it fired.
+    """
+
+    outcome: str
+    event: str
+    landmark: str | None
+    rule: str
+    t_s: float
+
+
+class LandmarkModule(Protocol):
+    """The module behind the landmark buffer."""
+
+    def mark(self, request: MarkRequest) -> BufferChunk | None:
+        """Carry out a decision; the chunk of a new landmark goes into the buffer."""
+
+
+@dataclass(frozen=True, slots=True)
+class TraceEvent:
+    """One event of one module, in ACT-R's vocabulary.
+
+    Attributes
+    ----------
+    t_s : float
+        Engine time, whole tenths of a millisecond.
+    module : str
+        procedural, goal, orienting, declarative, imaginal or landmark.
+    action : str
+        production-selected, set-buffer-chunk, start-retrieval and so on.
+    name : str
+        The production or buffer it is about; empty where there is none.
+    chunk : mapping or None
+        Slots of the chunk that was set or asked for, with ``isa``.
+    """
+
+    t_s: float
+    module: str
+    action: str
+    name: str = ""
+    chunk: Mapping[str, str] | None = field(default=None)

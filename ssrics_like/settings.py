@@ -1,0 +1,287 @@
+"""YAML files as checked settings: every error with its place, all of them at once.
+
+PyYAML keeps a line mark on each node but drops it on loading, and lets a key
+stand twice. Here the node tree is walked once, so that both are known when
+pydantic has said what is wrong.
+"""
+
+from __future__ import annotations
+
+import types
+import typing
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+from ssrics_like.errors import SettingsError, nearest
+
+Key = tuple[str | int, ...]
+Settings = TypeVar("Settings", bound=BaseModel)
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A place in a file, 1-based."""
+
+    line: int
+    column: int
+
+
+@dataclass
+class Document:
+    """The content of one YAML file and where each key of it stands.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    data : dict
+        Its content as plain Python values.
+    marks : dict
+        Path of keys -> place of the key (of the item, in a list).
+    problems : list of str
+        What is already known to be wrong: keys that stand twice.
+    """
+
+    path: Path
+    data: dict[str, Any] = field(default_factory=dict)
+    marks: dict[Key, Mark] = field(default_factory=dict)
+    problems: list[str] = field(default_factory=list)
+
+    def where(self, key: Key) -> str:
+        """Return ``file:line:column`` of `key` or of the nearest key above it."""
+        while key and key not in self.marks:
+            key = key[:-1]
+        mark = self.marks.get(key)
+        return f"{self.path}:{mark.line}:{mark.column}" if mark else f"{self.path}"
+
+
+def read_document(path: Path, error: type[SettingsError] | type[Exception] = SettingsError) -> Document:
+    """Read a YAML file whose top level is a mapping.
+
+    Raises
+    ------
+    SettingsError
+        Or the given kind of it: the file cannot be read, is empty, or is not YAML.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise error(f"{path}: no such file") from None
+    except IsADirectoryError:
+        raise error(f"{path}: is a folder, expected a YAML file") from None
+    except (OSError, UnicodeDecodeError) as e:
+        raise error(f"{path}: cannot be read as text ({e.__class__.__name__})") from None
+    try:
+        loader = yaml.SafeLoader(text)
+        root = loader.get_single_node()
+    except yaml.MarkedYAMLError as e:
+        mark = e.problem_mark or e.context_mark
+        place = f":{mark.line + 1}:{mark.column + 1}" if mark else ""
+        raise error(f"{path}{place}: not valid YAML: {e.problem}") from None
+    except yaml.YAMLError as e:
+        raise error(f"{path}: not valid YAML: {str(e).splitlines()[0]}") from None
+    if root is None:
+        raise error(f"{path}: the file is empty, expected YAML keys")
+    document = Document(path)
+    if not isinstance(root, yaml.MappingNode):
+        mark = root.start_mark
+        raise error(f"{path}:{mark.line + 1}:{mark.column + 1}: expected keys and values at the top")
+    document.data = _plain(root, (), document, loader, ())
+    return document
+
+
+def _plain(node: Any, at: Key, doc: Document, loader: Any, above: tuple[int, ...]) -> Any:
+    """Turn a node into plain values, noting marks and keys that stand twice."""
+    if id(node) in above:
+        raise SettingsError(f"{doc.where(at)}: the value contains itself")
+    if isinstance(node, yaml.SequenceNode):
+        items = []
+        for i, child in enumerate(node.value):
+            doc.marks[*at, i] = _mark(child)
+            items.append(_plain(child, (*at, i), doc, loader, (*above, id(node))))
+        return items
+    if isinstance(node, yaml.MappingNode):
+        values: dict[str, Any] = {}
+        for key_node, child in node.value:
+            key = str(getattr(key_node, "value", key_node.tag))
+            mark = _mark(key_node)
+            if key in values:
+                first = doc.marks[*at, key]
+                doc.problems.append(
+                    f"{doc.path}:{mark.line}:{mark.column}: key '{key}' stands twice "
+                    f"(first in line {first.line})"
+                )
+                continue
+            doc.marks[*at, key] = mark
+            values[key] = _plain(child, (*at, key), doc, loader, (*above, id(node)))
+        return values
+    return loader.construct_object(node)
+
+
+def _mark(node: Any) -> Mark:
+    return Mark(node.start_mark.line + 1, node.start_mark.column + 1)
+
+
+def validated(kind: type[Settings], document: Document) -> Settings:
+    """Check a document against a settings model.
+
+    Raises
+    ------
+    SettingsError
+        With one line for each thing that is wrong, in order of their lines.
+    """
+    problems = list(document.problems)
+    try:
+        settings = kind.model_validate(document.data)
+    except ValidationError as e:
+        problems += [
+            f"{document.where(key)}: {text}" for key, text in explain(kind, e, document.data)
+        ]
+        raise SettingsError("\n".join(_by_place(problems))) from None
+    if problems:
+        raise SettingsError("\n".join(problems))
+    return settings
+
+
+def explain(
+    kind: type[BaseModel], error: ValidationError, data: Any
+) -> list[tuple[Key, str]]:
+    """Say each of pydantic's complaints in one line: key, value, expectation, nearest name."""
+    lines = []
+    for item in error.errors():
+        at = tuple(item["loc"])
+        key = ".".join(str(part) for part in at) or "the file"
+        if item["type"] == "extra_forbidden":
+            known = fields_at(kind, at[:-1])
+            lines.append((at, f"unknown key '{key}'{_hint(str(at[-1]), known)}"))
+        elif item["type"] == "missing":
+            lines.append((at, f"key '{key}' is missing"))
+        elif item["type"].endswith(("_type", "_parsing")) or item["type"] == "literal_error":
+            expected = item["msg"].removeprefix("Input should be ")
+            value = item["input"]
+            hint = ""
+            if item["type"] == "literal_error" and isinstance(value, str):
+                hint = nearest(value, expected.replace("'", "").replace(" or ", ", ").split(", "))
+            lines.append((at, f"{key}: {value!r} where {expected} was expected{hint}"))
+        else:
+            said = item["msg"].removeprefix("Value error, ").removeprefix("Input should be ")
+            lines.append((at, f"{key}: {_shown(item['input'])}: expected {said}"
+                          if not item["msg"].startswith("Value error") else f"{key}: {said}"))
+    return lines
+
+
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."  # noqa: PLR2004 - a line's worth
+
+
+def _hint(word: str, known: Iterable[str]) -> str:
+    names = list(known)
+    return nearest(word, names) or (f"; known keys: {', '.join(names)}" if names else "")
+
+
+def _by_place(problems: list[str]) -> list[str]:
+    def place(line: str) -> tuple[int, int]:
+        parts = line.split(":", 3)
+        try:
+            return int(parts[1]), int(parts[2])
+        except (IndexError, ValueError):
+            return 0, 0
+
+    return sorted(problems, key=place)
+
+
+def fields_at(kind: type[BaseModel], at: Sequence[str | int]) -> list[str]:
+    """Return the field names of the model that stands at a path of keys below `kind`."""
+    model: Any = kind
+    for part in at:
+        if isinstance(part, int):
+            continue
+        if not (isinstance(model, type) and issubclass(model, BaseModel)):
+            return []
+        info = model.model_fields.get(part)
+        if info is None:
+            continue  # a union's branch name, which is no key of the file
+        model = _model_in(info.annotation)
+    return list(model.model_fields) if isinstance(model, type) and issubclass(
+        model, BaseModel
+    ) else []
+
+
+def _model_in(annotation: Any) -> Any:
+    """Find the model inside ``X | None``, ``tuple[X, ...]`` and the like."""
+    if isinstance(annotation, type) and not isinstance(annotation, types.GenericAlias):
+        return annotation
+    for part in typing.get_args(annotation):
+        found = _model_in(part)
+        if isinstance(found, type) and issubclass(found, BaseModel):
+            return found
+    return None
+
+
+def override(settings: Settings, changes: Mapping[str, Any], prefix: str) -> Settings:
+    """Return the settings with some values replaced, checked anew.
+
+    Parameters
+    ----------
+    settings : BaseModel
+        Where to start from.
+    changes : mapping
+        Dotted key below `settings` -> new value.
+    prefix : str
+        What the user typed before the key, for messages: ``memory.``.
+
+    Raises
+    ------
+    SettingsError
+        With one line for each unknown key and each value that does not fit.
+    """
+    kind = type(settings)
+    data = settings.model_dump()
+    problems = []
+    for dotted, value in changes.items():
+        keys = dotted.split(".")
+        inner: Any = data
+        for i, key in enumerate(keys):
+            if not isinstance(inner, dict) or (key not in inner and _closed(kind, keys[:i])):
+                known = fields_at(kind, keys[:i])
+                problems.append(f"--set {prefix}{dotted}: unknown key '{key}'{_hint(key, known)}")
+                break
+            if i == len(keys) - 1:
+                inner[key] = value
+            elif inner.get(key) is None:
+                inner[key] = {}
+            inner = inner[key]
+    if not problems:
+        try:
+            return kind.model_validate(data)
+        except ValidationError as e:
+            problems = [f"--set {prefix}{text}" for _, text in explain(kind, e, data)]
+    raise SettingsError("\n".join(problems))
+
+
+def _closed(kind: type[BaseModel], at: Sequence[str]) -> bool:
+    """Whether the mapping at a path has a fixed set of keys."""
+    return bool(fields_at(kind, at))
+
+
+def parse_override(text: str) -> tuple[str, Any]:
+    """Split ``key=value`` as typed after ``--set``; the value is read as YAML.
+
+    Raises
+    ------
+    SettingsError
+        There is no ``=``, no key, or the value is not YAML.
+    """
+    key, equals, value = text.partition("=")
+    if not equals or not key.strip():
+        raise SettingsError(f"--set {text}: expected key=value, for example memory.decay=0.3")
+    try:
+        return key.strip(), yaml.safe_load(value)
+    except yaml.YAMLError:
+        raise SettingsError(f"--set {text}: the value {value!r} is not valid YAML") from None
