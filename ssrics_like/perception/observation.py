@@ -49,7 +49,8 @@ class LaserScan:
     @cached_property
     def bearings_rad(self) -> NDArray[np.float64]:
         """Bearing of each beam, shape (beams,)."""
-        return self.angle_min_rad + self.angle_increment_rad * np.arange(len(self.ranges_m))
+        beams = np.arange(len(self.ranges_m), dtype=np.float64)
+        return self.angle_min_rad + self.angle_increment_rad * beams
 
 
 @dataclass(frozen=True, slots=True)

@@ -145,7 +145,7 @@ def load_rulebook(path: Path) -> Rulebook:
         parameters=entry.parameters,
         rules=tuple(rules),
     )
-    key_line = {key: mark.line for (key, *rest), mark in document.marks.items() if not rest}
+    key_line = {str(key): mark.line for (key, *rest), mark in document.marks.items() if not rest}
     problems += validation.problems(book, key_line, complete=not problems)
     if problems:
         problems.sort(key=lambda problem: problem[0])

@@ -106,21 +106,18 @@ def parse_rule(text: str, first_line: int = 1) -> RuleText:
     if len(arrows) != 1:
         line = words[arrows[1]][1] if arrows else first_line
         raise RuleSyntaxError(line, f"expected one '{ARROW}' between the sides, found {len(arrows)}")
-    tests = _clauses(words[: arrows[0]], TESTS, "left")
-    actions = _clauses(words[arrows[0] + 1 :], ACTIONS, "right")
-    arrow_line = words[arrows[0]][1]
-    if not tests:
-        raise RuleSyntaxError(arrow_line, f"nothing stands before '{ARROW}'")
-    if not actions:
-        raise RuleSyntaxError(arrow_line, f"nothing stands after '{ARROW}'")
-    return RuleText(tests, actions)
+    left, (_, arrow_line), right = words[: arrows[0]], words[arrows[0]], words[arrows[0] + 1 :]
+    for side, where in ((left, "before"), (right, "after")):
+        if not side:
+            raise RuleSyntaxError(arrow_line, f"nothing stands {where} '{ARROW}'")
+    return RuleText(_clauses(left, TESTS, "left"), _clauses(right, ACTIONS, "right"))
 
 
 def _clauses(
     words: list[tuple[str, int]], signs: dict[str, str], side: str
 ) -> tuple[Clause, ...]:
     heads = [i for i, (word, _) in enumerate(words) if word.endswith(">")]
-    if words and (not heads or heads[0] != 0):
+    if not heads or heads[0] != 0:
         word, line = words[0]
         raise RuleSyntaxError(line, f"'{word}': expected a buffer such as '=g>' first")
     clauses = []

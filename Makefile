@@ -1,0 +1,51 @@
+# make run    sets up .venv, runs the main job, prints where its report is
+# make test   sets up what the tests need, runs them
+# make check  lint, types, and the built wheel used outside the checkout
+# make bench  the figures of docs/benchmarks.md
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
+
+.PHONY: run test check lint types wheel bench clean
+
+run: $(VENV)/.installed
+	$(BIN)/ssrics run demo --out out/demo
+
+test: $(VENV)/.tests
+	$(BIN)/python -m pytest -q
+
+check: lint types wheel
+
+lint: $(VENV)/.dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(VENV)/.dev
+	$(BIN)/mypy
+
+wheel: $(VENV)/.dev
+	sh tests/wheel.sh $(BIN)/python
+
+bench: $(VENV)/.tests
+	for script in benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
+
+$(BIN)/python:
+	$(PYTHON) -c 'import sys; sys.exit("ssrics-like needs Python 3.11 or newer, this is " + sys.version.split()[0] if sys.version_info < (3, 11) else 0)'
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.installed: pyproject.toml constraints.txt | $(BIN)/python
+	$(PIP) --editable .
+	touch $@
+
+$(VENV)/.tests: $(VENV)/.installed
+	$(PIP) --editable '.[test]'
+	touch $@
+
+$(VENV)/.dev: $(VENV)/.tests
+	$(PIP) --editable '.[dev]'
+	touch $@
+
+clean:
+	rm -rf $(VENV) out dist build

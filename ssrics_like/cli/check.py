@@ -1,0 +1,34 @@
+"""``ssrics check``: is a file what it should be?"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+
+def check(*files: Path) -> int:
+    """Check files before they are used: logs, rule sets, profiles, scenarios, results folders.
+
+    Every problem of every file is reported; the exit status is 1 if there is any.
+
+    Examples: ssrics check robot.log my-rules.yaml
+
+    Parameters
+    ----------
+    files
+        The files.
+    """
+    from ssrics_like.errors import SsricsError, choices
+    from ssrics_like.scenarios.checking import KINDS, check_file
+
+    if not files:
+        raise SsricsError(f"check: name at least one file; it may be {choices(KINDS)}")
+    wrong = 0
+    for path in files:
+        try:
+            print(f"{path}: ok: {check_file(path)}")
+        except SsricsError as error:
+            wrong += 1
+            for line in str(error).splitlines():
+                print(f"ssrics: {line}", file=sys.stderr)
+    return 1 if wrong else 0

@@ -1,0 +1,199 @@
+"""Columns of continuous values: views as a matrix, places as coordinates."""
+
+from __future__ import annotations
+
+from typing import NoReturn, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssrics_like.memory.chunks import Place, Value, View
+from ssrics_like.memory.columns import SimilarityScale
+from ssrics_like.memory.growing import GrowingArray
+
+Kind = TypeVar("Kind", View, Place)
+
+
+def _expect(kind: type[Kind], slot: str, value: Value) -> Kind:
+    if not isinstance(value, kind):
+        raise TypeError(f"slot '{slot}' takes a {kind.__name__}, got {value!r}")
+    return value
+
+
+def _unordered(slot: str, order: str) -> NoReturn:
+    raise TypeError(f"slot '{slot}': {order} needs numbers; views and places have no order")
+
+
+class ViewColumn:
+    """Views of many chunks: a matrix of centred rows of length 1.
+
+    Pearson's r of the requested view with every stored one is then one matrix-vector
+    product. A constant view has no direction: it correlates 1 with a view of the same
+    constant and 0 with any other, as the novelty algorithm defines it for scans.
+
+    Parameters
+    ----------
+    slot : str
+        Its name, for messages.
+    scale : SimilarityScale
+        Similarity at r = 1, and at r = 0 and below.
+    """
+
+    def __init__(self, slot: str, scale: SimilarityScale) -> None:
+        self.slot = slot
+        self._scale = scale
+        self._views: list[View | None] = []
+        self._present = GrowingArray(np.bool_)
+        self._level = GrowingArray(np.float64)  # of a constant view, else NaN
+        self._unit: GrowingArray[np.float32] | None = None  # made when the length is known
+
+    def check(self, value: Value) -> None:
+        """Raise TypeError unless it is a View, ValueError unless as long as the others."""
+        self._centred(_expect(View, self.slot, value))
+
+    def append(self, value: Value | None) -> None:
+        """Add the view of the next chunk; None if it lacks the slot."""
+        view = None if value is None else _expect(View, self.slot, value)
+        unit, level = (0.0, np.nan) if view is None else self._centred(view)
+        if self._unit is None and view is not None:
+            self._unit = GrowingArray(np.float32, len(view.descriptor))
+            for _ in self._views:
+                self._unit.append(0.0)
+        if self._unit is not None:
+            self._unit.append(unit)
+        self._views.append(view)
+        self._present.append(view is not None)
+        self._level.append(level)
+
+    def replace(self, row: int, value: Value) -> None:
+        """Store another view for a chunk that has one."""
+        view = _expect(View, self.slot, value)
+        unit, level = self._centred(view)
+        if self._unit is None or self._views[row] is None:
+            raise ValueError(f"slot '{self.slot}' of chunk {row} is empty: nothing to replace")
+        self._views[row] = view
+        self._level.used[row] = level
+        self._unit.used[row] = unit
+
+    def _centred(self, view: View) -> tuple[NDArray[np.float32], float]:
+        descriptor = view.descriptor.astype(np.float64)
+        if self._unit is not None and len(descriptor) != self._unit.used.shape[1]:
+            raise ValueError(
+                f"slot '{self.slot}': view '{view.name}' has {len(descriptor)} numbers, "
+                f"the others have {self._unit.used.shape[1]}"
+            )
+        if descriptor.min() == descriptor.max():
+            return np.zeros(len(descriptor), np.float32), float(descriptor[0])
+        descriptor -= descriptor.mean()
+        return (descriptor / np.linalg.norm(descriptor)).astype(np.float32), np.nan
+
+    @property
+    def present(self) -> NDArray[np.bool_]:
+        """Which chunks have the slot, shape (n,)."""
+        return self._present.used
+
+    def equals(self, requested: Value) -> NDArray[np.bool_]:
+        """Which chunks have exactly this view, shape (n,)."""
+        return np.fromiter((view == requested for view in self._views), np.bool_, len(self._views))
+
+    def ordered(self, order: str, bound: Value) -> NDArray[np.bool_]:
+        """Refuse: views have no order."""
+        del bound
+        _unordered(self.slot, order)
+
+    def similarity(self, requested: Value) -> NDArray[np.float64]:
+        """``different + (equal - different) * clip(r, 0, 1)`` for each view, shape (n,).
+
+        Numbers are float32 inside; the error of r is below 1e-6.
+        """
+        unit, level = self._centred(_expect(View, self.slot, requested))
+        if self._unit is None:
+            return np.full(len(self._views), self._scale.different)
+        if np.isnan(level):
+            # einsum, not BLAS: BLAS sums a row differently by its position and by the
+            # number of threads, so equal views would differ and runs would not repeat.
+            r = np.einsum("ij,j->i", self._unit.used, unit).astype(np.float64)
+            np.clip(r, 0.0, 1.0, out=r)
+        else:
+            r = (self._level.used == level).astype(np.float64)
+        return np.asarray(self._scale.different + (self._scale.equal - self._scale.different) * r)
+
+    def fully_similar(self, requested: Value) -> NDArray[np.bool_]:
+        """Which views are the requested one."""
+        return self.equals(requested)
+
+
+class PlaceColumn:
+    """Places of many chunks: coordinates, and the path length when they were estimated.
+
+    Parameters
+    ----------
+    slot : str
+        Its name, for messages.
+    scale : SimilarityScale
+        Similarity at distance 0, and far away.
+    sigma_m : float
+        Standard deviation of a position just estimated, metres.
+    drift : float
+        Growth of that deviation per metre travelled since.
+    """
+
+    def __init__(self, slot: str, scale: SimilarityScale, sigma_m: float, drift: float) -> None:
+        self.slot = slot
+        self._scale = scale
+        self._sigma_m = sigma_m
+        self._drift = drift
+        self._present = GrowingArray(np.bool_)
+        self._coordinates = GrowingArray(np.float64, 3)
+
+    def check(self, value: Value) -> None:
+        """Raise TypeError unless it is a Place."""
+        _expect(Place, self.slot, value)
+
+    def append(self, value: Value | None) -> None:
+        """Add the place of the next chunk; None if it lacks the slot."""
+        row = (np.nan,) * 3 if value is None else self._row(value)
+        self._present.append(value is not None)
+        self._coordinates.append(row)
+
+    def replace(self, row: int, value: Value) -> None:
+        """Store a newer estimate for a chunk that has a place."""
+        if not self._present.used[row]:
+            raise ValueError(f"slot '{self.slot}' of chunk {row} is empty: nothing to replace")
+        self._coordinates.used[row] = self._row(value)
+
+    def _row(self, value: Value) -> tuple[float, float, float]:
+        place = _expect(Place, self.slot, value)
+        return place.x_m, place.y_m, place.travelled_m
+
+    @property
+    def present(self) -> NDArray[np.bool_]:
+        """Which chunks have the slot, shape (n,)."""
+        return self._present.used
+
+    def equals(self, requested: Value) -> NDArray[np.bool_]:
+        """Which chunks have exactly this place, shape (n,)."""
+        return np.asarray((self._coordinates.used == self._row(requested)).all(axis=1))
+
+    def ordered(self, order: str, bound: Value) -> NDArray[np.bool_]:
+        """Refuse: places have no order."""
+        del bound
+        _unordered(self.slot, order)
+
+    def similarity(self, requested: Value) -> NDArray[np.float64]:
+        """``different + (equal - different) * exp(-d^2 / (2 s^2))``, shape (n,).
+
+        d is the distance of the two estimated positions and
+        ``s^2 = sigma^2 + (drift * path travelled between the two estimates)^2``.
+        """
+        x_m, y_m, travelled_m = self._row(requested)
+        xs, ys, travelled = self._coordinates.used.T
+        squared = (xs - x_m) ** 2 + (ys - y_m) ** 2
+        variance = self._sigma_m**2 + (self._drift * (travelled_m - travelled)) ** 2
+        likeness = np.exp(-squared / (2 * variance))
+        span = self._scale.equal - self._scale.different
+        return np.asarray(self._scale.different + span * likeness)
+
+    def fully_similar(self, requested: Value) -> NDArray[np.bool_]:
+        """Which places are the requested one."""
+        return self.equals(requested)

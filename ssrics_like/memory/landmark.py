@@ -1,0 +1,116 @@
+"""What topological memory is made of: landmarks and arcs, and what they may be called."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import TypeAlias
+
+Label: TypeAlias = str | int | float | bool
+
+RESERVED_LABELS = frozenset({"closed", "same_as", "component"})
+"""Kept for what later versions will say of a landmark or arc: a way found shut, the same
+place met from another side, a part of the map not yet joined to the rest."""
+
+
+@dataclass(frozen=True)
+class Landmark:
+    """A node: a place worth remembering.
+
+    Attributes
+    ----------
+    id : str
+        Unique name.
+    x_m, y_m, theta_rad : float
+        Pose of the robot when it first marked the place, as estimated then, in the frame
+        of whoever added it. Radians within (-pi, pi], counter-clockwise.
+    t_s, last_visit_s : float
+        When it was marked, and last visited; seconds.
+    visits : int
+        Number of visits, the marking included.
+    labels : mapping of str to str, int, float or bool
+        What is known of it (sector, structure, salience ...).
+    """
+
+    id: str
+    x_m: float
+    y_m: float
+    theta_rad: float
+    t_s: float
+    last_visit_s: float
+    visits: int
+    labels: Mapping[str, Label] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A way from one landmark to the next, as remembered from going it.
+
+    Attributes
+    ----------
+    from_id, to_id : str
+        Where it begins and ends. The way back is another arc.
+    traversals : int
+        How often it was gone.
+    distance_m, distance_sd_m : float
+        Straight distance: mean, and standard deviation over the traversals (0 for one).
+    bearing_rad, bearing_sd_rad : float
+        Where the destination lies, seen on leaving: the angle from the robot's heading
+        at departure to the straight line, positive to the left, within (-pi, pi].
+        Circular mean, and angular deviation (0 to sqrt(2)).
+    path_m, path_sd_m : float
+        Length of the path driven: mean and standard deviation.
+    """
+
+    from_id: str
+    to_id: str
+    traversals: int
+    distance_m: float
+    distance_sd_m: float
+    bearing_rad: float
+    bearing_sd_rad: float
+    path_m: float
+    path_sd_m: float
+
+
+NOT_LABELS = frozenset(f.name for f in fields(Landmark))
+
+
+def checked_labels(labels: Mapping[str, Label | None]) -> dict[str, Label]:
+    """Return the labels worth keeping: neither None nor empty text.
+
+    Raises
+    ------
+    ValueError
+        For a label that is reserved, not printable or not finite.
+    """
+    kept: dict[str, Label] = {}
+    for name, value in labels.items():
+        if value is None or value == "":
+            continue
+        if name in RESERVED_LABELS | NOT_LABELS:
+            raise ValueError(f"label '{name}' is reserved")
+        if not name.isprintable() or (isinstance(value, str) and not value.isprintable()):
+            raise ValueError(f"label {name!r} is {value!r}; expected printable text")
+        if isinstance(value, bool | str):
+            kept[name] = value
+        elif isinstance(value, int):
+            kept[name] = int(value)
+        else:
+            kept[name] = finite(name, value)
+    return kept
+
+
+def finite(name: str, value: float) -> float:
+    """Return a finite number, or raise ValueError under the name given."""
+    if not math.isfinite(value):
+        raise ValueError(f"{name} is {value!r}; expected a finite number")
+    return float(value)
+
+
+def length(name: str, value: float) -> float:
+    """Return a finite number of 0 or more, or raise ValueError under the name given."""
+    if not (math.isfinite(value) and value >= 0):
+        raise ValueError(f"{name} is {value!r}; expected a length of 0 or more")
+    return float(value)

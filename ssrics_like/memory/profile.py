@@ -1,0 +1,28 @@
+"""A memory set-up as users name it: ACT-R's parameters and those of the continuous slots."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ssrics_like.memory.parameters import MemoryParameters
+
+
+class MemoryProfile(MemoryParameters):
+    """An entry of the library's memory folder.
+
+    Attributes
+    ----------
+    title, source : str
+        What it is, and where its values come from.
+    place_sigma_m : float
+        Standard deviation, in metres, of where a landmark is marked from one visit to the next.
+    place_drift : float
+        Growth of that deviation per metre travelled since the landmark was last visited.
+    """
+
+    title: str = ""
+    source: str = ""
+    place_sigma_m: Annotated[float, Field(gt=0)] = 1.0
+    place_drift: Annotated[float, Field(ge=0)] = 0.02

@@ -1,0 +1,121 @@
+"""How alike a slot's values are: by table, by function, by view, by place.
+
+A `SlotSimilarity` describes; the column that it makes stores the slot's values and
+compares. So one description serves several memories and several chunk types.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import Protocol
+
+from ssrics_like.memory.chunks import Value
+from ssrics_like.memory.columns import CodedColumn, SimilarityScale, SlotColumn
+from ssrics_like.memory.continuous import PlaceColumn, ViewColumn
+
+
+class SlotSimilarity(Protocol):
+    """How to store and compare the values of one slot."""
+
+    def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
+        """Make an empty column for the slot of that name."""
+
+
+class TableSimilarity:
+    """Similarities set for pairs of values (ACT-R's set-similarities).
+
+    Parameters
+    ----------
+    pairs : mapping of (Value, Value) to float, optional
+        Similarity of two values, in either order. A pair of a value with itself
+        overrides the similarity of equal values. All other pairs are equal
+        (max_similarity) or different (max_difference).
+    """
+
+    def __init__(self, pairs: Mapping[tuple[Value, Value], float] | None = None) -> None:
+        self._partners: dict[Value, dict[Value, float]] = {}
+        for (one, other), similarity in (pairs or {}).items():
+            self._partners.setdefault(one, {})[other] = similarity
+            self._partners.setdefault(other, {})[one] = similarity
+
+    def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
+        """Make an empty column for the slot of that name."""
+        return CodedColumn(slot, scale, self._exceptions if self._partners else None)
+
+    def _exceptions(
+        self, requested: Value, codes: Mapping[Value, int]
+    ) -> Iterator[tuple[int, float]]:
+        for other, similarity in self._partners.get(requested, {}).items():
+            if other in codes:
+                yield codes[other], similarity
+
+
+class FunctionSimilarity:
+    """Similarity computed by a function (ACT-R's :sim-hook).
+
+    Parameters
+    ----------
+    function : callable
+        From the requested value and a chunk's value to a similarity; None where it has
+        no answer, and equality decides. Called once for each distinct value in memory
+        at each retrieval; need not be symmetric.
+    """
+
+    def __init__(self, function: Callable[[Value, Value], float | None]) -> None:
+        self._function = function
+
+    def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
+        """Make an empty column for the slot of that name."""
+        return CodedColumn(slot, scale, self._exceptions)
+
+    def _exceptions(
+        self, requested: Value, codes: Mapping[Value, int]
+    ) -> Iterator[tuple[int, float]]:
+        for value, code in codes.items():
+            similarity = self._function(requested, value)
+            if similarity is not None:
+                yield code, similarity
+
+
+class ViewSimilarity:
+    """Similarity of views: Pearson's r of their descriptors, no less than 0.
+
+    r is what the novelty algorithm compares scans by (report, section 2.1), so memory
+    and perception agree on what looks alike; it ignores an offset and a scale of the
+    ranges. Below 0 it carries no more news: two unrelated views correlate at about 0,
+    and a view is no less a match for being the reverse of another.
+    """
+
+    def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
+        """Make an empty column for the slot of that name."""
+        return ViewColumn(slot, scale)
+
+
+class PlaceSimilarity:
+    """Similarity of places: how compatible two estimated positions are.
+
+    Parameters
+    ----------
+    place_sigma_m : float
+        Standard deviation of a position just estimated, metres; above 0.
+    place_drift : float
+        How fast it grows: metres of deviation per metre travelled since; 0 or more.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of its range.
+    """
+
+    def __init__(self, place_sigma_m: float, place_drift: float) -> None:
+        if not (math.isfinite(place_sigma_m) and place_sigma_m > 0):
+            raise ValueError(f"place_sigma_m is {place_sigma_m!r}; expected metres above 0")
+        if not (math.isfinite(place_drift) and place_drift >= 0):
+            raise ValueError(f"place_drift is {place_drift!r}; expected 0 or more")
+        self.place_sigma_m = place_sigma_m
+        self.place_drift = place_drift
+
+    def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
+        """Make an empty column for the slot of that name."""
+        return PlaceColumn(slot, scale, self.place_sigma_m, self.place_drift)

@@ -1,0 +1,232 @@
+"""Topological memory: a labelled graph of landmarks and the ways between them.
+
+After Warren, Rothman, Schnapp & Ericson (2017), "Wormholes in virtual space: From
+cognitive maps to cognitive graphs", Cognition 166: places are nodes; an arc carries a
+rough distance and direction, known from going there. Nothing makes the arcs agree with
+one another or with one map, and nothing here does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import networkx as nx
+
+from ssrics_like.errors import nearest
+from ssrics_like.memory.landmark import Arc, Label, Landmark, checked_labels, finite, length
+from ssrics_like.memory.statistics import RunningDirection, RunningMean, wrapped
+
+
+class TopologicalMemory:
+    """Landmarks and the arcs between them.
+
+    Consecutive landmarks are joined by :meth:`traverse`, whose measurements update the
+    arc's running estimates. Two different ways between the same two landmarks share one
+    arc, and show in its spread.
+    """
+
+    def __init__(self) -> None:
+        self._graph: Any = nx.DiGraph()
+
+    def __len__(self) -> int:
+        return len(self._graph)
+
+    def __contains__(self, landmark: object) -> bool:
+        return landmark in self._graph
+
+    def __getitem__(self, landmark: str) -> Landmark:
+        if landmark not in self._graph:
+            hint = nearest(landmark, self._graph)
+            raise KeyError(f"no landmark '{landmark}' in topological memory{hint}")
+        node: Landmark = self._graph.nodes[landmark]["landmark"]
+        return node
+
+    @property
+    def nodes(self) -> tuple[Landmark, ...]:
+        """All landmarks, in the order in which they were marked."""
+        return tuple(self[landmark] for landmark in self._graph)
+
+    @property
+    def arcs(self) -> tuple[Arc, ...]:
+        """All arcs, by the order of their first landmark, then of their making."""
+        return tuple(self.arc(*ends) for ends in self._graph.edges)
+
+    def arc(self, from_id: str, to_id: str) -> Arc:
+        """Return the arc from one landmark to another.
+
+        Raises
+        ------
+        KeyError
+            If it was never traversed.
+        """
+        if not self._graph.has_edge(from_id, to_id):
+            raise KeyError(f"no arc from '{from_id}' to '{to_id}' in topological memory")
+        estimates = self._graph.edges[from_id, to_id]
+        distance, bearing, path = (estimates[k] for k in ("distance", "bearing", "path"))
+        return Arc(
+            from_id,
+            to_id,
+            distance.n,
+            distance.mean,
+            distance.deviation,
+            bearing.mean_rad,
+            bearing.deviation,
+            path.mean,
+            path.deviation,
+        )
+
+    def degree(self, landmark: str) -> int:
+        """Count the other landmarks joined to this one by an arc either way."""
+        self[landmark]
+        neighbours = {*self._graph.predecessors(landmark), *self._graph.successors(landmark)}
+        return len(neighbours - {landmark})
+
+    def add_landmark(
+        self,
+        id: str,  # noqa: A002  the contract's name for it, in files as well
+        x_m: float,
+        y_m: float,
+        theta_rad: float,
+        t_s: float,
+        **labels: Label | None,
+    ) -> Landmark:
+        """Add a landmark, with its first visit.
+
+        Parameters
+        ----------
+        id : str
+            Unique name: printable, not empty.
+        x_m, y_m, theta_rad : float
+            Where it is, metres and radians.
+        t_s : float
+            When, seconds.
+        **labels : str, int, float, bool or None
+            What is known of it. A label that is None or empty text is left out.
+
+        Returns
+        -------
+        Landmark
+
+        Raises
+        ------
+        ValueError
+            For a name that is taken or not printable, a number that is not finite, or a
+            label that is reserved or not printable.
+        """
+        if not (isinstance(id, str) and id and id.isprintable()):
+            raise ValueError(f"landmark name {id!r}; expected printable text, not empty")
+        if id in self._graph:
+            raise ValueError(f"landmark '{id}' is in topological memory already")
+        t = finite("t_s", t_s)
+        landmark = Landmark(
+            id=id,
+            x_m=finite("x_m", x_m),
+            y_m=finite("y_m", y_m),
+            theta_rad=wrapped(finite("theta_rad", theta_rad)),
+            t_s=t,
+            last_visit_s=t,
+            visits=1,
+            labels=checked_labels(labels),
+        )
+        self._graph.add_node(id, landmark=landmark)
+        return landmark
+
+    def visit(
+        self,
+        id: str,  # noqa: A002  as in add_landmark
+        t_s: float,
+        **labels: Label | None,
+    ) -> Landmark:
+        """Count one more visit; labels given replace those of the same name.
+
+        Raises
+        ------
+        KeyError
+            If there is no such landmark.
+        ValueError
+            As for :meth:`add_landmark`.
+        """
+        known = self[id]
+        visited = replace(
+            known,
+            visits=known.visits + 1,
+            last_visit_s=finite("t_s", t_s),
+            labels={**known.labels, **checked_labels(labels)},
+        )
+        self._graph.nodes[id]["landmark"] = visited
+        return visited
+
+    def traverse(
+        self, from_id: str, to_id: str, distance_m: float, bearing_rad: float, path_m: float
+    ) -> Arc:
+        """Note that the robot went from one landmark straight to the next.
+
+        Parameters
+        ----------
+        from_id, to_id : str
+            Consecutive landmarks.
+        distance_m : float
+            Straight distance between them as odometry has it.
+        bearing_rad : float
+            Direction of the destination relative to the robot's heading when it left,
+            positive to the left; any whole turns are dropped.
+        path_m : float
+            Length of the path driven.
+
+        Returns
+        -------
+        Arc
+            With its estimates brought up to date.
+
+        Raises
+        ------
+        KeyError
+            If there is no such landmark.
+        ValueError
+            For a number that is not finite, or a negative length.
+        """
+        for landmark in (from_id, to_id):
+            self[landmark]
+        values = {
+            "distance": length("distance_m", distance_m),
+            "bearing": wrapped(finite("bearing_rad", bearing_rad)),
+            "path": length("path_m", path_m),
+        }
+        if not self._graph.has_edge(from_id, to_id):
+            self._graph.add_edge(
+                from_id,
+                to_id,
+                distance=RunningMean(),
+                bearing=RunningDirection(),
+                path=RunningMean(),
+            )
+        estimates = self._graph.edges[from_id, to_id]
+        estimates.update({key: estimates[key].with_value(value) for key, value in values.items()})
+        return self.arc(from_id, to_id)
+
+    @classmethod
+    def restored(cls, landmarks: Iterable[Landmark], arcs: Iterable[Arc]) -> TopologicalMemory:
+        """Build a memory from what another one reported; estimates go on from there.
+
+        Raises
+        ------
+        KeyError
+            If an arc begins or ends at no landmark.
+        """
+        memory = cls()
+        for landmark in landmarks:
+            memory._graph.add_node(landmark.id, landmark=landmark)
+        for arc in arcs:
+            n = arc.traversals
+            for end in (arc.from_id, arc.to_id):
+                memory[end]
+            memory._graph.add_edge(
+                arc.from_id,
+                arc.to_id,
+                distance=RunningMean.of(n, arc.distance_m, arc.distance_sd_m),
+                bearing=RunningDirection.of(n, arc.bearing_rad, arc.bearing_sd_rad),
+                path=RunningMean.of(n, arc.path_m, arc.path_sd_m),
+            )
+        return memory

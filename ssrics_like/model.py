@@ -1,0 +1,153 @@
+"""The model of the mind: observations in, decisions out.
+
+Every source, a log, a simulated building or a live robot, comes through
+`CognitiveModel.observe`, one observation at a time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from ssrics_like.decision import Decision
+from ssrics_like.memory import DeclarativeMemory, Retrieval, TopologicalMemory
+from ssrics_like.memory.profile import MemoryProfile
+from ssrics_like.modules import LandmarkModules
+from ssrics_like.perception.observation import Observation
+from ssrics_like.perception.profile import PerceptionProfile
+from ssrics_like.perception.reflex import PerceptionBuffer
+from ssrics_like.productions.engine import Engine
+from ssrics_like.productions.interface import TraceEvent
+from ssrics_like.productions.rulebook import Rulebook
+
+
+class CognitiveModel:
+    """A perception buffer, a rule set and two memories, joined.
+
+    Parameters
+    ----------
+    perception : PerceptionProfile
+        How the model senses.
+    productions : Rulebook
+        What it knows how to do.
+    memory : MemoryProfile
+        How it remembers.
+    seed : int
+        Seed of activation noise and utility noise.
+    trace : callable, optional
+        Receives every TraceEvent; its times are in seconds since the first observation.
+    retrieved : callable, optional
+        Receives (engine time, Retrieval) for every retrieval, with each candidate's activation.
+
+    Examples
+    --------
+    >>> from ssrics_like import CognitiveModel, load_memory, load_perception, load_productions
+    >>> model = CognitiveModel(
+    ...     load_perception("report"), load_productions("report"), load_memory("act-r"))
+    >>> model.decisions_pending
+    0
+    """
+
+    def __init__(
+        self,
+        perception: PerceptionProfile,
+        productions: Rulebook,
+        memory: MemoryProfile,
+        *,
+        seed: int = 0,
+        trace: Callable[[TraceEvent], None] = lambda _: None,
+        retrieved: Callable[[float, Retrieval], None] = lambda _time, _retrieval: None,
+    ) -> None:
+        memory_seed, utility_seed = np.random.SeedSequence(seed).spawn(2)
+        self.perception = PerceptionBuffer(perception)
+        self._decisions: list[Decision] = []
+        self._modules = LandmarkModules(
+            memory, np.random.default_rng(memory_seed), self._decisions.append, retrieved
+        )
+        self.engine = Engine(
+            productions,
+            self._modules,
+            self._modules,
+            seed=int(utility_seed.generate_state(1)[0]),
+            trace=trace,
+        )
+        self._start_s: float | None = None
+        self._previous: Observation | None = None
+
+    @property
+    def declarative(self) -> DeclarativeMemory:
+        """The declarative memory."""
+        return self._modules.declarative
+
+    @property
+    def topological(self) -> TopologicalMemory:
+        """The landmarks and the arcs between them."""
+        return self._modules.topological
+
+    @property
+    def decisions_pending(self) -> int:
+        """Number of reflexes that were fired but not decided yet."""
+        return self._modules.undecided
+
+    def observe(self, observation: Observation) -> list[Decision]:
+        """Take one observation and return what was decided up to now.
+
+        Parameters
+        ----------
+        observation : Observation
+            The next record of the source; its time must not fall.
+
+        Returns
+        -------
+        list of Decision
+            In the order of deciding; a decision comes some tenths of a second after its reflex.
+
+        Raises
+        ------
+        ValueError
+            The observation is older than the one before it.
+        """
+        if self._start_s is None:
+            self._start_s = observation.t_s
+            self._modules.begin(observation.t_s)
+        if self._previous is not None:
+            if observation.t_s < self._previous.t_s:
+                raise ValueError(
+                    f"observation {observation.index} is at {observation.t_s} s, before "
+                    f"{self._previous.t_s} s; observations must come in order of time"
+                )
+            before, here = self._previous.pose, observation.pose
+            self._modules.travel(math.hypot(here.x_m - before.x_m, here.y_m - before.y_m))
+        self._previous = observation
+        now_s = observation.t_s - self._start_s
+        self.engine.advance(now_s)
+        for reflex in self.perception.update(observation):
+            overwritten = self.engine.push("orienting", self._modules.admit(reflex), now_s)
+            if overwritten is not None:
+                self._modules.overwrite(overwritten, now_s)
+        return self._take()
+
+    def finish(self) -> list[Decision]:
+        """End the run: report what perception still holds back and settle the productions.
+
+        Returns
+        -------
+        list of Decision
+            The last decisions.
+        """
+        if self._previous is not None and self._start_s is not None:
+            now_s = self._previous.t_s - self._start_s
+            for reflex in self.perception.flush():
+                self.engine.settle()
+                self.engine.push(
+                    "orienting", self._modules.admit(reflex), max(now_s, self.engine.now_s)
+                )
+        self.engine.settle()
+        return self._take()
+
+    def _take(self) -> list[Decision]:
+        taken = self._decisions.copy()
+        self._decisions.clear()
+        return taken

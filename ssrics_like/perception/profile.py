@@ -1,0 +1,79 @@
+"""The settings of a perception buffer: how one set-up of the sensor is read."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator
+
+from ssrics_like.perception.conditioning import is_window
+from ssrics_like.perception.marking import Mark  # noqa: TC001  (pydantic reads it at run time)
+from ssrics_like.perception.novelty import (
+    REPORT_GRADIENT,
+    REPORT_INTERVAL,
+    REPORT_THRESHOLD,
+    Advance,
+)
+from ssrics_like.perception.sectors import SectorRule  # noqa: TC001  (pydantic reads it at run time)
+
+Anchor = Literal["newest", "middle", "oldest"]
+Fraction = Annotated[float, Field(gt=0.0, lt=1.0)]
+
+
+class PerceptionProfile(BaseModel):
+    """Every setting of the reading that a perception buffer takes.
+
+    The defaults are those of the library's profile ``human-like``. Where the
+    report leaves a choice open the profile states it.
+
+    Attributes
+    ----------
+    title, source : str
+        What the profile is for, and where its values come from; free text.
+    range_cap_m : float
+        Metres. Readings from here on, and no-return values, are set to it.
+    repair_window : int
+        Beams of the median that repairs dropouts, odd; 0 turns repair off.
+    interval : int
+        Scans that are correlated with each other (the report's beta).
+    gradient : float
+        Correlation above which two scans are the same (the report's T).
+    threshold : float
+        Boredom quotient above which an interval is not novel (the report's B).
+    advance : {"sliding", "tumbling"}
+        Whether an interval ends at every scan, or intervals do not overlap.
+    mark : {"peak", "every", "onset"}
+        Which novel intervals fire a reflex.
+    prominence : float
+        Fall of novelty after which a maximum counts as a peak; used by `mark` peak.
+    anchor : {"middle", "newest", "oldest"}
+        The interval's scan that gives the time, the pose, the sector and the
+        view. Of an even number of scans the middle is the later of the two.
+    sector_rule : {"robust", "maximum"}
+        Whether a running median or the single largest reading decides the sector.
+    view_beams : int
+        Size of the view descriptor.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+
+    title: str = ""
+    source: str = ""
+    range_cap_m: Annotated[float, Field(gt=0.0)] = 8.0
+    repair_window: Annotated[int, Field(ge=0)] = 5
+    interval: Annotated[int, Field(ge=2)] = REPORT_INTERVAL
+    gradient: Fraction = REPORT_GRADIENT
+    threshold: Fraction = REPORT_THRESHOLD
+    advance: Advance = "sliding"
+    mark: Mark = "peak"
+    prominence: Fraction = 0.05
+    anchor: Anchor = "middle"
+    sector_rule: SectorRule = "robust"
+    view_beams: Annotated[int, Field(ge=2)] = 36
+
+    @field_validator("repair_window")
+    @classmethod
+    def _window_is_odd(cls, beams: int) -> int:
+        if beams != 0 and not is_window(beams):
+            raise ValueError("expected 0 (off) or an odd number of beams, 3 or more")
+        return beams

@@ -1,0 +1,81 @@
+"""Tells what kind a file is and checks it as that kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from ssrics_like import settings
+from ssrics_like.errors import SettingsError, choices
+from ssrics_like.library import SUFFIXES
+from ssrics_like.memory.profile import MemoryProfile
+from ssrics_like.perception.profile import PerceptionProfile
+from ssrics_like.productions.rulebook import load_rulebook
+from ssrics_like.scenarios.folder import read_manifest
+from ssrics_like.scenarios.schema import Scenario, load_scenario, resolve
+from ssrics_like.sources import open_log
+
+
+def check_file(path: Path) -> str:
+    """Check one file or results folder and say in a line what it is.
+
+    Raises
+    ------
+    SettingsError, RuleError, LibraryError, SourceError, ResultsError
+        What is wrong with it.
+    """
+    if path.is_dir():
+        manifest = read_manifest(path)
+        return f"results of {len(manifest['runs'])} run(s), frame {manifest['frame']}"
+    if path.suffix in SUFFIXES:
+        kind = _kind(path)
+        return f"{kind}, {KINDS[kind](path)}"
+    return _log(path)
+
+
+def _kind(path: Path) -> str:
+    """Tell a YAML file's kind: the one that knows most of its keys."""
+    keys = set(settings.read_document(path).data)
+    known = {
+        "rule set": {"rules", "chunk_types", "goal", "harvest"},
+        "scenario": set(Scenario.model_fields) - {"title"},
+        "perception profile": set(PerceptionProfile.model_fields) - {"title", "source"},
+        "memory profile": set(MemoryProfile.model_fields) - {"title", "source"},
+    }
+    best = max(known, key=lambda kind: len(known[kind] & keys))
+    if not known[best] & keys:
+        raise SettingsError(f"{path}: none of its keys is known; expected a {choices(KINDS)}")
+    return best
+
+
+def _rules(path: Path) -> str:
+    book = load_rulebook(path)
+    return f"'{book.title}', {len(book.rules)} rules"
+
+
+def _scenario(path: Path) -> str:
+    resolved = resolve(load_scenario(path), path.parent)
+    return f"'{resolved.scenario.title}', {resolved.scenario.runs} run(s) of {resolved.log.name}"
+
+
+def _profile(kind: type[PerceptionProfile] | type[MemoryProfile]) -> Callable[[Path], str]:
+    def check(path: Path) -> str:
+        return f"'{settings.validated(kind, settings.read_document(path)).title}'"
+
+    return check
+
+
+def _log(path: Path) -> str:
+    source = open_log(path)
+    scans = sum(1 for _ in source)
+    said = "; ".join(source.report.warnings())
+    return f"{source.format} log, {scans} scans, frame {source.frame}" + (f"; {said}" if said else "")
+
+
+KINDS: dict[str, Callable[[Path], str]] = {
+    "rule set": _rules,
+    "scenario": _scenario,
+    "perception profile": _profile(PerceptionProfile),
+    "memory profile": _profile(MemoryProfile),
+    "log": _log,
+}

@@ -1,0 +1,82 @@
+"""Writing results: plain numbers, whole files or none."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import os
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+DECIMALS = 6
+
+
+def number(value: float | int | None) -> str:
+    """Write a number with at most six decimals; nothing for None and for what is not finite."""
+    if value is None:
+        return ""
+    if isinstance(value, int):
+        return str(value)
+    if not math.isfinite(value):
+        return ""
+    text = f"{value:.{DECIMALS}f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def plain(value: Any) -> Any:
+    """Round every float in nested data to six decimals; what is not finite becomes None."""
+    if isinstance(value, bool) or value is None:
+        return value
+    if isinstance(value, float):
+        return round(value, DECIMALS) + 0.0 if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    return value
+
+
+def write_atomically(path: Path, data: bytes | str) -> None:
+    """Write a file to a temporary name beside it, then give it its own.
+
+    Raises
+    ------
+    OSError
+        The folder cannot be written.
+    """
+    raw = data.encode("utf-8") if isinstance(data, str) else data
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(raw)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(name, 0o644)  # noqa: PTH101 - mkstemp makes files that only the owner can read
+        os.replace(name, path)  # noqa: PTH105
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def json_text(data: Any, *, indent: int | None = 2) -> str:
+    """Return data as JSON with a final newline."""
+    separators = (",", ": ") if indent else (",", ":")
+    return json.dumps(plain(data), indent=indent, separators=separators, allow_nan=False) + "\n"
+
+
+def csv_line(values: Iterable[Any]) -> str:
+    """Return one CSV row; numbers as by `number`."""
+    buffer = io.StringIO()
+    csv.writer(buffer, lineterminator="\n").writerow(
+        number(v) if isinstance(v, int | float) or v is None else str(v) for v in values
+    )
+    return buffer.getvalue()
+
+
+def csv_text(header: Sequence[str], rows: Iterable[Iterable[Any]]) -> str:
+    """Return a CSV file's text."""
+    return csv_line(header) + "".join(csv_line(row) for row in rows)

@@ -1,0 +1,189 @@
+"""The results folder: what stands in it, and how runs get into it unharmed.
+
+Each run is written apart, in ``.runs/run-NNN.partial``, and renamed when it is
+complete; the tables that users read are put together from complete runs only.
+So an interrupted command leaves finished runs whole, and can be resumed.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+from ssrics_like.errors import ResultsError
+from ssrics_like.scenarios import tables
+from ssrics_like.scenarios.files import csv_line, json_text, write_atomically
+
+MANIFEST = "manifest.json"
+FORMAT = "ssrics-results"
+VERSION = 1
+_OURS = {
+    MANIFEST, "decisions.csv", "landmarks.csv", "path.csv", "topology", "trace", "report.html",
+    "figures", ".runs",
+}  # fmt: skip
+
+
+class ResultsFolder:
+    """One results folder.
+
+    Parameters
+    ----------
+    path : Path
+        The folder; made if it does not exist.
+
+    Raises
+    ------
+    ResultsError
+        It cannot be made, or holds files that are not results.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.staging = path / ".runs"
+        if path.exists() and not path.is_dir():
+            raise ResultsError(f"{path}: is a file, expected a folder for results")
+        if path.is_dir():
+            foreign = sorted(item.name for item in path.iterdir() if item.name not in _OURS)
+            if foreign:
+                raise ResultsError(
+                    f"{path}: holds '{foreign[0]}', which is no result of ssrics; "
+                    "name an empty or new folder"
+                )
+        try:
+            self.staging.mkdir(parents=True, exist_ok=True)
+        except OSError as e:
+            raise ResultsError(f"{path}: cannot be written ({e.strerror})") from None
+
+    def begin(self, description: dict[str, Any], *, resume: bool) -> dict[int, dict[str, Any]]:
+        """Prepare for runs of a scenario.
+
+        Parameters
+        ----------
+        description : dict
+            All that decides the results; runs of another description cannot be resumed.
+        resume : bool
+            Keep the runs that are complete, rather than start anew.
+
+        Returns
+        -------
+        dict
+            Run number -> entry, of the runs that are kept.
+
+        Raises
+        ------
+        ResultsError
+            To be resumed, but the runs there belong to another scenario.
+        """
+        note = self.staging / "scenario.json"
+        text = json_text(description)
+        if resume and note.is_file():
+            if note.read_text(encoding="utf-8") != text:
+                raise ResultsError(
+                    f"{self.path}: its runs were made from other settings or another version; "
+                    "resume with the same ones, or without --resume to start anew"
+                )
+        else:
+            shutil.rmtree(self.staging)
+            self.staging.mkdir()
+            write_atomically(note, text)
+        for partial in self.staging.glob("*.partial"):
+            shutil.rmtree(partial)
+        return {entry["run"]: entry for entry in self._entries()}
+
+    def open_run(self, run: int) -> Path:
+        """Make the folder that a run is written to."""
+        partial = self.staging / f"run-{run:03d}.partial"
+        partial.mkdir()
+        return partial
+
+    def close_run(self, run: int, entry: dict[str, Any]) -> None:
+        """Declare a run complete."""
+        partial = self.staging / f"run-{run:03d}.partial"
+        write_atomically(partial / "run.json", json_text(entry))
+        partial.rename(partial.with_suffix(""))
+
+    def _entries(self) -> list[dict[str, Any]]:
+        return [
+            json.loads((folder / "run.json").read_text(encoding="utf-8"))
+            for folder in self._complete()
+        ]
+
+    def _complete(self) -> list[Path]:
+        folders = self.staging.glob("run-*[0-9]")
+        return sorted(folders, key=lambda folder: int(folder.name.removeprefix("run-")))
+
+    def combine(self, description: dict[str, Any]) -> dict[str, Any]:
+        """Put the complete runs together into the tables that users read; return the manifest."""
+        folders = self._complete()
+        entries = self._entries()
+        warnings = list(dict.fromkeys(text for entry in entries for text in entry["warnings"]))
+        for name, header in (("decisions.csv", tables.DECISIONS), ("path.csv", tables.PATH)):
+            self._join(name, csv_line(header), folders, skip=0)
+        self._join("landmarks.csv", csv_line(tables.LANDMARKS), folders, skip=1)
+        for name in ("topology", "trace", "figures"):
+            (self.path / name).mkdir(exist_ok=True)
+            for old in (self.path / name).iterdir():
+                old.unlink()
+        for folder in folders:
+            for source, target in (
+                ("topology.json", f"topology/{folder.name}.json"),
+                ("topology.graphml", f"topology/{folder.name}.graphml"),
+                ("trace.jsonl", f"trace/{folder.name}.jsonl"),
+                ("figures.json", f"figures/{folder.name}.json"),
+            ):
+                _link(folder / source, self.path / target)
+        manifest = {
+            "format": FORMAT,
+            "version": VERSION,
+            **description,
+            "warnings": warnings,
+            "runs": entries,
+        }
+        write_atomically(self.path / MANIFEST, json_text(manifest))
+        return manifest
+
+    def _join(self, name: str, header: str, folders: list[Path], *, skip: int) -> None:
+        temporary = self.staging / f"{name}.joined"
+        with temporary.open("wb") as out:
+            out.write(header.encode())
+            for folder in folders:
+                with (folder / name).open("rb") as part:
+                    for _ in range(skip):
+                        part.readline()
+                    shutil.copyfileobj(part, out)
+        temporary.replace(self.path / name)
+
+
+def _link(source: Path, target: Path) -> None:
+    """Give a file a second name; copy it where the file system has no hard links."""
+    try:
+        target.hardlink_to(source)
+    except OSError:
+        shutil.copyfile(source, target)
+
+
+def read_manifest(path: Path) -> dict[str, Any]:
+    """Read the manifest of a results folder.
+
+    Raises
+    ------
+    ResultsError
+        The folder holds no results, or those of a newer version.
+    """
+    file = path / MANIFEST
+    if not file.is_file():
+        what = "no such folder" if not path.exists() else f"no results here ({MANIFEST} is missing)"
+        raise ResultsError(f"{path}: {what}")
+    try:
+        manifest: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    except ValueError as e:
+        raise ResultsError(f"{file}: is damaged: {e}") from None
+    if not isinstance(manifest, dict) or manifest.get("format") != FORMAT:
+        raise ResultsError(f"{file}: is not a results manifest")
+    if manifest["version"] > VERSION:
+        raise ResultsError(
+            f"{file}: results of version {manifest['version']}, this program reads up to {VERSION}"
+        )
+    return manifest

@@ -1,0 +1,183 @@
+"""Writes what happens in one run, as it happens."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self, TextIO
+
+import numpy as np
+
+from ssrics_like.decision import Decision
+from ssrics_like.memory import Retrieval
+from ssrics_like.memory.store import save_topology
+from ssrics_like.model import CognitiveModel
+from ssrics_like.perception.histogram import correlation_histogram
+from ssrics_like.perception.observation import Observation
+from ssrics_like.perception.reflex import IntervalExample
+from ssrics_like.productions.interface import TraceEvent
+from ssrics_like.scenarios import tables
+from ssrics_like.scenarios.files import csv_line, csv_text, json_text, write_atomically
+from ssrics_like.scenarios.thinning import Outline, Series
+
+PATH_STEP_S = 0.1  # path.csv holds at most 10 poses a second
+ACTIVATION_POINTS = 300
+
+
+class Recorder:
+    """Streams a run's tables and trace into a folder.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of this run; it must exist and be empty.
+    run : int
+        Number of the run.
+    start_s : float
+        Time of the first observation: zero of the engine's clock.
+    range_cap_m : float
+        Readings from here on are not drawn.
+    """
+
+    def __init__(self, folder: Path, run: int, start_s: float, range_cap_m: float) -> None:
+        self.folder = folder
+        self.run = run
+        self.scans = 0
+        self.length_m = 0.0
+        self.decided: Counter[str] = Counter()
+        self.start_s = start_s
+        self.end_s = start_s
+        self._previous: Observation | None = None
+        self._written_s = -math.inf
+        self._novelty = Series()
+        self._outline = Outline(range_cap_m)
+        self._files: dict[str, TextIO] = {}
+
+    def __enter__(self) -> Self:
+        for name in ("decisions.csv", "path.csv", "trace.jsonl"):
+            self._files[name] = (self.folder / name).open("w", encoding="utf-8", newline="\n")
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        for file in self._files.values():
+            file.close()
+
+    def observed(self, observation: Observation, novelty: float | None) -> None:
+        """Note an observation and the novelty of the newest interval, if there is one."""
+        if self._previous is not None:
+            here = observation.true_pose or observation.pose
+            before = self._previous.true_pose or self._previous.pose
+            self.length_m += math.hypot(here.x_m - before.x_m, here.y_m - before.y_m)
+        self._previous = observation
+        self.end_s = observation.t_s
+        self.scans += 1
+        if observation.t_s - self._written_s >= PATH_STEP_S - 1e-9:
+            self._written_s = observation.t_s
+            self._files["path.csv"].write(csv_line(tables.path_row(self.run, observation)))
+        if novelty is not None:
+            self._novelty.append(observation.t_s, novelty)
+        self._outline.add(observation)
+
+    def decided_all(self, decisions: list[Decision]) -> None:
+        """Note decisions."""
+        for decision in decisions:
+            self.decided[decision.decision] += 1
+            self._files["decisions.csv"].write(csv_line(tables.decision_row(self.run, decision)))
+
+    def traced(self, event: TraceEvent) -> None:
+        """Note one event of the engine."""
+        self._trace(event.t_s, event.module, event.action, event.name, chunk=event.chunk)
+
+    def retrieved(self, t_s: float, retrieval: Retrieval) -> None:
+        """Note every term of every candidate's activation."""
+        found = retrieval.candidates
+        columns = {
+            "names": list(found.names),
+            "base_level": found.base_level.tolist(),
+            "spreading": found.spreading.tolist(),
+            "partial_match": found.partial_match.tolist(),
+            "noise": found.noise.tolist(),
+            "total": found.total.tolist(),
+            "threshold": found.threshold,
+        }
+        self._trace(t_s, "declarative", "activation", "", candidates=columns)
+
+    def _trace(self, t_s: float, module: str, action: str, name: str, **more: Any) -> None:
+        event = {"t_s": self.start_s + t_s, "module": module, "action": action, "name": name}
+        event |= {key: value for key, value in more.items() if value is not None}
+        self._files["trace.jsonl"].write(json_text(event, indent=None))
+
+    def finish(self, model: CognitiveModel) -> dict[str, Any]:
+        """Write what is known only at the end; return the run's entry for the manifest."""
+        for file in self._files.values():
+            file.flush()
+        rows = tables.landmark_rows(self.run, model, self.start_s, self.end_s)
+        write_atomically(self.folder / "landmarks.csv", csv_text(tables.LANDMARKS, rows))
+        for ending in ("json", "graphml"):
+            save_topology(model.topological, self.folder / f"topology.{ending}")
+        write_atomically(
+            self.folder / "figures.json", json_text(self._figure_data(model), indent=None)
+        )
+        seen = model.perception
+        return {
+            "run": self.run,
+            "scans": self.scans,
+            "start_s": self.start_s,
+            "duration_s": self.end_s - self.start_s,
+            "path_length_m": self.length_m,
+            "novelty": {
+                "intervals": seen.intervals,
+                "novel_intervals": seen.novel_intervals,
+                "onsets": seen.onsets,
+            },
+            "decisions": dict(sorted(self.decided.items())),
+            "undecided": model.decisions_pending,
+            "landmarks": len(model.topological),
+            "firings": model.engine.firings,
+        }
+
+    def _figure_data(self, model: CognitiveModel) -> dict[str, Any]:
+        """Collect what the report draws and no table holds."""
+        names = [n.id for n in model.topological.nodes if n.id in model.declarative]
+        gradient = model.perception.profile.gradient
+        times = np.linspace(0.0, self.end_s - self.start_s, ACTIVATION_POINTS)
+        return {
+            "outline": self._outline.as_data(),
+            "novelty": self._novelty.as_data(),
+            "histograms": {
+                "novel": _histogram(model.perception.example_novel, gradient),
+                "bored": _histogram(model.perception.example_bored, gradient),
+            },
+            "activation": {
+                "t_s": (times + self.start_s).tolist(),
+                "base_level": {
+                    name: [_base_level(model, name, float(t)) for t in times] for name in names
+                },
+            },
+        }
+
+
+def _base_level(model: CognitiveModel, name: str, t_s: float) -> float | None:
+    """Return a chunk's base level as it was at a time; None before it was made."""
+    if model.declarative.references(name)[0] >= t_s:
+        return None
+    return model.declarative.base_level(name, t_s)
+
+
+def _histogram(example: IntervalExample | None, gradient: float) -> dict[str, Any] | None:
+    if example is None:
+        return None
+    counts, edges = correlation_histogram(example.correlations, gradient)
+    return {
+        "scan": example.scan,
+        "tau": example.tau,
+        "counts": counts.tolist(),
+        "edges": edges.tolist(),
+    }
