@@ -7,6 +7,7 @@ up here on its way to declarative memory.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 
@@ -20,6 +21,7 @@ from ssrics_like.memory import (
     PlaceSimilarity,
     Request,
     Retrieval,
+    TableSimilarity,
     TopologicalMemory,
     View,
     ViewSimilarity,
@@ -29,6 +31,7 @@ from ssrics_like.perception.reflex import Reflex
 from ssrics_like.productions.interface import BufferChunk, MarkRequest, Recall, SlotTest
 
 CONTINUOUS = ("view", "place")
+SECTORS = ("left", "front", "right")
 
 
 class LandmarkModules:
@@ -58,6 +61,9 @@ class LandmarkModules:
             profile,
             rng,
             {
+                "sector": TableSimilarity(
+                    dict.fromkeys(itertools.combinations(SECTORS, 2), profile.sector_difference)
+                ),
                 "view": ViewSimilarity(),
                 "place": PlaceSimilarity(profile.place_sigma_m, profile.place_drift),
             },

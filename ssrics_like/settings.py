@@ -162,7 +162,7 @@ def explain(
         elif item["type"] == "missing":
             lines.append((at, f"key '{key}' is missing"))
         elif item["type"].endswith(("_type", "_parsing")) or item["type"] == "literal_error":
-            expected = item["msg"].removeprefix("Input should be ")
+            expected = item["msg"].removeprefix("Input should be ").partition(", unable")[0]
             value = item["input"]
             hint = ""
             if item["type"] == "literal_error" and isinstance(value, str):

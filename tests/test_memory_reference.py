@@ -292,7 +292,7 @@ def history(row):
 
 
 @pytest.mark.parametrize(
-    ("times", "query", "decay", "learn", "constant", "expected"),
+    "case",
     [
         ([0.0], 0.001, 0.2, False, 0.0, 0.5991464547107982),  # younger than 50 ms
         ([0.0], 0.010, 0.5, True, 0.0, 2.191013317336941),
@@ -305,7 +305,8 @@ def history(row):
         ([1.622, 5.285, 6.162], 20.05, 0.5, False, 0.0, -0.27242400810742096),
     ],
 )
-def test_base_levels_of_actr(times, query, decay, learn, constant, expected):
+def test_base_levels_of_actr(case):
+    times, query, decay, learn, constant, expected = case
     found = base_level(times, query, decay=decay, optimized=learn, constant=constant)
     assert found == pytest.approx(expected, **EXACT)
 
@@ -342,6 +343,9 @@ FIVE = (
 )
 HEADINGS = "h0 isa item v 0 @ 0.0 | h90 isa item v 90 @ 0.0 | h300 isa item v 300 @ 0.0"
 RECENT = "near isa item v 3 @ 0.0 | far isa item v 7 @ 0.0;4.0;4.5;4.8"
+NUMBERS = (
+    "n1 isa item v 1 @ 0 | n2 isa item v 2 @ 0 | n25 isa item v 2.5 @ 0 | n10 isa item v 10 @ 0"
+)
 SIZES = "lo isa item v 1 @ 0.0 | eq isa item v 3 @ 0.0 | hi isa item v 6 @ 0.0"
 PAIRS = "(crimson azure -0.3) (circle square -0.6)"
 BOTH = "isa item color crimson shape circle"
@@ -372,7 +376,6 @@ EXACT_MATCHING = [
         {"a": 0.1952810437829493, "b": 1.1435117523344362},
     ),
     Case(":rt -5.0 :lf 0.1", TIE, "isa item", 5.0, "aa", 224, {}),
-    Case(FLAT, HEADINGS, "isa item > v 90", 1.0, "h300", 100, {"h300": 0.0}),
     Case(":esc nil :lf 0.1", CRIMSON, "isa item color azure", 5.0, None, 0, {}),
 ]
 PARTIAL_MATCHING = [
@@ -395,6 +398,7 @@ PARTIAL_MATCHING = [
         14,
         {"a": 2.0, "b": -1.0, "c": -4.0},
     ),
+    Case(FLAT + " :mp 1.0", NUMBERS, "isa item > v 2", 1.0, "n10", 100, {"n25": 0.0, "n10": 0.0}),
     Case(FLAT + " :mp 1.0", FOUR, "isa item color azure shape nil", 1.0, "d", 272, {"d": -1.0}),
     Case(
         FLAT + " :mp 2.5",
@@ -453,11 +457,17 @@ SPREADING = [
     Case(
         FLAT + " :mas 2.0 :ga 0.0",  # the imaginal buffer spreads 1 unless told
         FIVE,
-        "isa item color crimson shape circle",
+        "isa item",
         1.0,
-        "f1",
-        81,
-        {"f1": 0.20824053077194504},
+        "f4",
+        41,
+        {
+            "f1": 0.20824053077194504,
+            "f2": 0.20824053077194504,
+            "f3": 0.0,
+            "f4": 0.9013877113318902,
+            "f5": 0.20824053077194504,
+        },
         buffers="(imaginal (i isa x s1 crimson))",
     ),
     Case(

@@ -10,9 +10,11 @@ import ssrics_like
 import ssrics_like.perception
 
 
-def python(code, **environment):
+def python(code, folder, **environment):
+    """Run `code` in `folder`, from where it imports first."""
     return subprocess.run(
         [sys.executable, "-W", "error", "-c", code],
+        cwd=folder,
         env={**os.environ, **environment},
         capture_output=True,
         text=True,
@@ -21,11 +23,10 @@ def python(code, **environment):
 
 
 def test_importing_perception_does_not_import_numba():
-    package = Path(ssrics_like.__file__).parents[1]
     done = python(
         "import sys, ssrics_like.perception as p; p.PerceptionProfile();"
         "print([m for m in sys.modules if m.split('.')[0] in ('numba', 'llvmlite', 'scipy')])",
-        PYTHONPATH=str(package),
+        Path(ssrics_like.__file__).parents[1],
     )
     assert (done.stdout, done.stderr) == ("[]\n", "")
 
@@ -39,15 +40,16 @@ def test_kernels_run_where_no_cache_can_be_written(tmp_path):
     (package / "perception" / "__pycache__").write_text("")
     nowhere = "/dev/null/none"
     done = python(
-        "from ssrics_like.perception import condition;"
-        "print(condition([1, 0, 1], 8, 3).ranges_m.tolist())",
-        PYTHONPATH=str(tmp_path),
+        "import ssrics_like; from ssrics_like.perception import condition;"
+        "print(ssrics_like.__file__, condition([1, 0, 1], 8, 3).ranges_m.tolist())",
+        tmp_path,
         PYTHONDONTWRITEBYTECODE="1",
         HOME=nowhere,
         XDG_CACHE_HOME=nowhere,
         NUMBA_CACHE_DIR="",
     )
-    assert (done.stdout, done.stderr) == ("[1.0, 1.0, 1.0]\n", "")
+    found = package / "__init__.py"
+    assert (done.stdout, done.stderr) == (f"{found} [1.0, 1.0, 1.0]\n", "")
 
 
 def test_public_names_are_there():

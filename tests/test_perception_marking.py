@@ -1,5 +1,7 @@
 """Which novel intervals are marked."""
 
+import itertools
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -79,7 +81,7 @@ def test_peaks_are_novel_in_order_and_no_two_without_a_valley(novelties, promine
     assert found == sorted(set(found))
     for index in found:
         assert not taus[index] > 0.75
-    for one, other in zip(found, found[1:], strict=False):
+    for one, other in itertools.pairwise(found):
         valley = min(1 - tau for tau in taus[one : other + 1])
         assert valley <= 0.25 or valley <= 1 - taus[one] - prominence + 1e-12
     stretches = sum(not tau > 0.75 and (k == 0 or taus[k - 1] > 0.75) for k, tau in enumerate(taus))

@@ -126,7 +126,7 @@ def test_longer_logs_agree_across_blocks_and_chunks(interval, advance):
 
 @pytest.mark.parametrize("beams", [5, 180, 682])
 def test_counts_equal_those_of_numpy_corrcoef(beams):
-    scans = drive(260, beams, seed=beams, step=0.3)
+    scans = drive(260, beams, seed=beams, step=0.2)
     upper = np.triu_indices(50, 1)
     expected = [
         np.count_nonzero(np.corrcoef(scans[k : k + 50])[upper] > 0.99) for k in range(260 - 49)
@@ -208,6 +208,16 @@ def test_correlation_does_not_depend_on_the_scale():
     for scale in (1e-120, 1e-60, 1e60, 1e120):
         assert scan_correlations(scans * scale) == pytest.approx([r], rel=1e-12)
     assert scan_correlations(np.array([[1e200, 1, 2, 4], [3, 1, 2, 4.0]])).tolist() == [1.0]
+
+
+def test_scans_that_differ_in_their_last_bits_are_still_correlated_rightly():
+    # 1000.1 + k ulp has the correlations of k; the mean alone is rounded by more than that.
+    rng = np.random.default_rng(0)
+    steps = rng.integers(0, 4, (4, 181)).astype(float)
+    steps[2:] = steps[:2] + (rng.uniform(size=(2, 181)) < 0.1)
+    scans = 1000.1 + steps * np.spacing(1000.1)
+    expected = np.corrcoef(steps)[np.triu_indices(4, 1)]
+    assert scan_correlations(scans) == pytest.approx(expected, abs=1e-12)
 
 
 def test_the_detectors_correlations_are_those_that_tau_counts():

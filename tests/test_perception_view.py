@@ -1,5 +1,6 @@
 """The view descriptor."""
 
+import itertools
 import math
 
 import numpy as np
@@ -25,7 +26,7 @@ def test_every_beam_count_is_cut_into_equal_parts(beams):
     rng = np.random.default_rng(beams)
     scan = rng.uniform(0.5, 8, beams)
     edges = np.arange(37) * beams // 36
-    medians = np.array([np.median(scan[a:b]) for a, b in zip(edges, edges[1:], strict=False)])
+    medians = np.array([np.median(scan[a:b]) for a, b in itertools.pairwise(edges)])
     medians -= medians.mean()
     expected = medians / np.linalg.norm(medians)
     assert describe_view(scan, 36) == pytest.approx(expected, abs=1e-6)

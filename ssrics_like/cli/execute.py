@@ -12,7 +12,6 @@ if TYPE_CHECKING:
 
 def execute(resolved: Resolved, out: Path, *, resume: bool, quiet: bool) -> None:
     """Carry a scenario out and report on it."""
-    from ssrics_like.report import write_report
     from ssrics_like.scenarios.runner import run_scenario
 
     bar = _bar(quiet=quiet)
@@ -24,6 +23,8 @@ def execute(resolved: Resolved, out: Path, *, resume: bool, quiet: bool) -> None
             resume=resume,
             progress=lambda run, share: bar.update(task, completed=run + share),
         )
+    from ssrics_like.report import write_report
+
     page = write_report(out)
     if not quiet:
         for line in summary(manifest):

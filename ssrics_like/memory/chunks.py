@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -39,6 +41,19 @@ class View:
             raise ValueError(f"view '{self.name}': descriptor holds a value that is not finite")
         descriptor.flags.writeable = False
         object.__setattr__(self, "descriptor", descriptor)
+
+    @cached_property
+    def direction(self) -> NDArray[np.float32]:
+        """The descriptor less its mean, scaled to length 1; shape (n,).
+
+        Pearson's r of two views is the product of their directions. That of a constant
+        descriptor is all 0.
+        """
+        if (self.descriptor == self.descriptor[0]).all():
+            return np.zeros_like(self.descriptor)
+        centred = self.descriptor.astype(np.float64)
+        centred -= centred.sum() / len(centred)
+        return np.asarray(centred / math.sqrt(centred @ centred), np.float32)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, View):

@@ -24,6 +24,11 @@ def _unordered(slot: str, order: str) -> NoReturn:
     raise TypeError(f"slot '{slot}': {order} needs numbers; views and places have no order")
 
 
+def _level(view: View) -> float:
+    """Return the value of a constant view, NaN for any other."""
+    return np.nan if view.direction.any() else float(view.descriptor[0])
+
+
 class ViewColumn:
     """Views of many chunks: a matrix of centred rows of length 1.
 
@@ -45,47 +50,42 @@ class ViewColumn:
         self._views: list[View | None] = []
         self._present = GrowingArray(np.bool_)
         self._level = GrowingArray(np.float64)  # of a constant view, else NaN
-        self._unit: GrowingArray[np.float32] | None = None  # made when the length is known
+        self._directions: GrowingArray[np.float32] | None = None  # made when the length is known
 
     def check(self, value: Value) -> None:
         """Raise TypeError unless it is a View, ValueError unless as long as the others."""
-        self._centred(_expect(View, self.slot, value))
+        view = _expect(View, self.slot, value)
+        if self._directions is None:
+            return
+        length = self._directions.used.shape[1]
+        if len(view.descriptor) != length:
+            raise ValueError(
+                f"slot '{self.slot}': view '{view.name}' has {len(view.descriptor)} numbers, "
+                f"the others have {length}"
+            )
 
     def append(self, value: Value | None) -> None:
         """Add the view of the next chunk; None if it lacks the slot."""
         view = None if value is None else _expect(View, self.slot, value)
-        unit, level = (0.0, np.nan) if view is None else self._centred(view)
-        if self._unit is None and view is not None:
-            self._unit = GrowingArray(np.float32, len(view.descriptor))
+        if self._directions is None and view is not None:
+            self._directions = GrowingArray(np.float32, len(view.descriptor))
             for _ in self._views:
-                self._unit.append(0.0)
-        if self._unit is not None:
-            self._unit.append(unit)
+                self._directions.append(0.0)
+        if self._directions is not None:
+            self._directions.append(0.0 if view is None else view.direction)
         self._views.append(view)
         self._present.append(view is not None)
-        self._level.append(level)
+        self._level.append(np.nan if view is None else _level(view))
 
     def replace(self, row: int, value: Value) -> None:
         """Store another view for a chunk that has one."""
+        self.check(value)
         view = _expect(View, self.slot, value)
-        unit, level = self._centred(view)
-        if self._unit is None or self._views[row] is None:
+        if self._directions is None or self._views[row] is None:
             raise ValueError(f"slot '{self.slot}' of chunk {row} is empty: nothing to replace")
         self._views[row] = view
-        self._level.used[row] = level
-        self._unit.used[row] = unit
-
-    def _centred(self, view: View) -> tuple[NDArray[np.float32], float]:
-        descriptor = view.descriptor.astype(np.float64)
-        if self._unit is not None and len(descriptor) != self._unit.used.shape[1]:
-            raise ValueError(
-                f"slot '{self.slot}': view '{view.name}' has {len(descriptor)} numbers, "
-                f"the others have {self._unit.used.shape[1]}"
-            )
-        if descriptor.min() == descriptor.max():
-            return np.zeros(len(descriptor), np.float32), float(descriptor[0])
-        descriptor -= descriptor.mean()
-        return (descriptor / np.linalg.norm(descriptor)).astype(np.float32), np.nan
+        self._level.used[row] = _level(view)
+        self._directions.used[row] = view.direction
 
     @property
     def present(self) -> NDArray[np.bool_]:
@@ -106,13 +106,15 @@ class ViewColumn:
 
         Numbers are float32 inside; the error of r is below 1e-6.
         """
-        unit, level = self._centred(_expect(View, self.slot, requested))
-        if self._unit is None:
+        self.check(requested)
+        view = _expect(View, self.slot, requested)
+        level = _level(view)
+        if self._directions is None:
             return np.full(len(self._views), self._scale.different)
         if np.isnan(level):
             # einsum, not BLAS: BLAS sums a row differently by its position and by the
             # number of threads, so equal views would differ and runs would not repeat.
-            r = np.einsum("ij,j->i", self._unit.used, unit).astype(np.float64)
+            r = np.einsum("ij,j->i", self._directions.used, view.direction).astype(np.float64)
             np.clip(r, 0.0, 1.0, out=r)
         else:
             r = (self._level.used == level).astype(np.float64)

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import TypeAlias
 
+import numpy as np
+
 Label: TypeAlias = str | int | float | bool
 
 RESERVED_LABELS = frozenset({"closed", "same_as", "component"})
@@ -86,19 +88,17 @@ def checked_labels(labels: Mapping[str, Label | None]) -> dict[str, Label]:
         For a label that is reserved, not printable or not finite.
     """
     kept: dict[str, Label] = {}
-    for name, value in labels.items():
+    for name, given in labels.items():
+        value = given.item() if isinstance(given, np.generic) else given
         if value is None or value == "":
             continue
         if name in RESERVED_LABELS | NOT_LABELS:
             raise ValueError(f"label '{name}' is reserved")
         if not name.isprintable() or (isinstance(value, str) and not value.isprintable()):
             raise ValueError(f"label {name!r} is {value!r}; expected printable text")
-        if isinstance(value, bool | str):
-            kept[name] = value
-        elif isinstance(value, int):
-            kept[name] = int(value)
-        else:
-            kept[name] = finite(name, value)
+        if not isinstance(value, str | int | float):
+            raise ValueError(f"label '{name}' is {value!r}; expected text, a number or a boolean")
+        kept[name] = finite(name, value) if isinstance(value, float) else value
     return kept
 
 

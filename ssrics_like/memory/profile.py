@@ -16,6 +16,9 @@ class MemoryProfile(MemoryParameters):
     ----------
     title, source : str
         What it is, and where its values come from.
+    sector_difference : float
+        Similarity of two different sectors. Sectors are egocentric, turning on the spot changes
+        them, so that a different sector says less than a different place.
     place_sigma_m : float
         Standard deviation, in metres, of where a landmark is marked from one visit to the next.
     place_drift : float
@@ -24,5 +27,6 @@ class MemoryProfile(MemoryParameters):
 
     title: str = ""
     source: str = ""
+    sector_difference: Annotated[float, Field(le=0)] = -0.25
     place_sigma_m: Annotated[float, Field(gt=0)] = 1.0
     place_drift: Annotated[float, Field(ge=0)] = 0.02

@@ -9,8 +9,9 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import os
+import sys
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -115,7 +116,7 @@ def _from_json(path: Path, content: bytes) -> Any:
     _check_header(path, header if isinstance(header, dict) else {})
     try:
         graph = nx.node_link_graph(data, edges="edges")
-    except (KeyError, TypeError, ValueError, AttributeError, nx.NetworkXException) as error:
+    except (LookupError, TypeError, ValueError, AttributeError, nx.NetworkXException) as error:
         raise MemoryFileError(f"{path}: damaged: {type(error).__name__} {error}") from error
     if len(graph) < len(data["nodes"]) or graph.number_of_edges() < len(data["edges"]):
         _damaged(path, "a landmark or an arc stands in it twice")
@@ -131,10 +132,19 @@ def _to_graphml(graph: Any) -> bytes:
 
 def _from_graphml(path: Path, content: bytes) -> Any:
     try:
-        graph = nx.read_graphml(io.BytesIO(content))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # networkx guesses where a key is incomplete
+            graph = nx.read_graphml(io.BytesIO(content))
     except ParseError as error:
         raise MemoryFileError(f"{path}:{error.position[0]}: damaged: {error}") from error
-    except (KeyError, TypeError, ValueError, AttributeError, nx.NetworkXException) as error:
+    except (
+        LookupError,
+        TypeError,
+        ValueError,
+        AttributeError,
+        UserWarning,
+        nx.NetworkXException,
+    ) as error:
         raise MemoryFileError(f"{path}: damaged: {type(error).__name__} {error}") from error
     _check_header(path, graph.graph)
     return graph

@@ -51,10 +51,10 @@ class ChunkTable:
         ValueError
             If a value does not suit its slot; the table is unchanged then.
         """
-        columns = {slot: self._columns.get(slot) or self._new_column(slot) for slot in chunk.slots}
-        for slot, column in columns.items():
-            column.check(chunk.slots[slot])
-        self._columns |= columns
+        new = {slot: self._new_column(slot) for slot in chunk.slots if slot not in self._columns}
+        for slot, value in chunk.slots.items():
+            (new.get(slot) or self._columns[slot]).check(value)
+        self._columns |= new
         for slot, column in self._columns.items():
             column.append(chunk.slots.get(slot))
         self.chunks.append(chunk)

@@ -119,9 +119,10 @@ class TopologicalMemory:
             raise ValueError(f"landmark name {id!r}; expected printable text, not empty")
         if id in self._graph:
             raise ValueError(f"landmark '{id}' is in topological memory already")
+        name = str(id)
         t = finite("t_s", t_s)
         landmark = Landmark(
-            id=id,
+            id=name,
             x_m=finite("x_m", x_m),
             y_m=finite("y_m", y_m),
             theta_rad=wrapped(finite("theta_rad", theta_rad)),
@@ -130,7 +131,7 @@ class TopologicalMemory:
             visits=1,
             labels=checked_labels(labels),
         )
-        self._graph.add_node(id, landmark=landmark)
+        self._graph.add_node(name, landmark=landmark)
         return landmark
 
     def visit(

@@ -24,29 +24,64 @@ from ssrics_like.productions.interface import (
 Harvest = Callable[[BufferChunk, float], None]
 
 
-def pyactr_chunk(chunk_type: str, slots: Mapping[str, str]) -> Any:
-    """Build a pyactr chunk that is not registered under a name (registered ones capture words)."""
-    values = {
-        slot: utilities.VarvalClass(values=value, variables=None, negvalues=(), negvariables=())
-        for slot, value in slots.items()
-    }
-    return chunks.Chunk(chunk_type, **values)
+class ChunkTypes:
+    """The chunk types of one rule set, as pyactr knows them.
 
+    pyactr keeps one table of types for the whole process, in which rule sets that define a type
+    differently would change each other's. So pyactr's name of a type carries its slots.
 
-def slots_of(chunk: Any) -> dict[str, str]:
-    """Return a pyactr chunk's slots that have a value."""
-    return {
-        slot: str(value.values)
-        for slot, value in chunk
-        if isinstance(value, utilities.VarvalClass) and value.values not in (None, "None")
-    }
+    Parameters
+    ----------
+    slots : mapping
+        Chunk type -> its slots.
+    """
+
+    def __init__(self, slots: Mapping[str, tuple[str, ...]]) -> None:
+        self._slots = {name: frozenset(of_type) for name, of_type in slots.items()}
+        self._inside = {name: "__".join((name, *sorted(own))) for name, own in self._slots.items()}
+        self._outside = {inside: name for name, inside in self._inside.items()}
+        for name, own in self._slots.items():
+            chunks.chunktype(self._inside[name], " ".join(sorted(own)))
+
+    def __contains__(self, chunk_type: str) -> bool:
+        return chunk_type in self._slots
+
+    def build(self, chunk_type: str, slots: Mapping[str, Any]) -> Any:
+        """Build a pyactr chunk; one that is not registered, since registered names capture words.
+
+        Values are words, or pyactr's descriptions of what a slot must hold. Slots that the rule
+        set does not declare are left out.
+        """
+        own = self._slots[chunk_type]
+        values = {
+            slot: value
+            if isinstance(value, utilities.VarvalClass)
+            else utilities.VarvalClass(values=value, variables=None, negvalues=(), negvariables=())
+            for slot, value in slots.items()
+            if slot in own
+        }
+        return chunks.Chunk(self._inside[chunk_type], **values)
+
+    def name_of(self, chunk: Any) -> str:
+        """Return the type of a pyactr chunk."""
+        return self._outside.get(chunk.typename, chunk.typename)
+
+    def read(self, chunk: Any, name: str | None = None) -> BufferChunk:
+        """Return a pyactr chunk as plain words, without the slots that have no value."""
+        slots = {
+            slot: str(value.values)
+            for slot, value in chunk
+            if isinstance(value, utilities.VarvalClass) and value.values not in (None, "None")
+        }
+        return BufferChunk(self.name_of(chunk), slots, name)
 
 
 class _ModuleBuffer(buffers.Buffer):
     """A buffer that harvests on clearing and is free again after a failure."""
 
-    def __init__(self, harvest: Harvest | None) -> None:
+    def __init__(self, types: ChunkTypes, harvest: Harvest | None) -> None:
         super().__init__()
+        self.types = types
         self._harvest = harvest
         self._name: str | None = None
 
@@ -54,12 +89,12 @@ class _ModuleBuffer(buffers.Buffer):
     def content(self) -> BufferChunk | None:
         """The chunk that the buffer holds."""
         for chunk in self:
-            return BufferChunk(chunk.typename, slots_of(chunk), self._name)
+            return self.types.read(chunk, self._name)
         return None
 
     def put(self, chunk: BufferChunk) -> None:
         """Set the buffer's chunk."""
-        super().add(pyactr_chunk(chunk.chunk_type, chunk.slots))
+        super().add(self.types.build(chunk.chunk_type, chunk.slots))
         self._name = chunk.name
 
     def add(self, elem: Any, time: float = 0.0) -> None:  # noqa: ARG002 - pyactr's signature
@@ -107,11 +142,12 @@ class RetrievalBuffer(_ModuleBuffer):
 
     def __init__(
         self,
+        types: ChunkTypes,
         harvest: Harvest | None,
         module: DeclarativeModule,
         sources: Callable[[], Mapping[str, tuple[str, ...]]],
     ) -> None:
-        super().__init__(harvest)
+        super().__init__(types, harvest)
         self._module = module
         self._sources = sources
 
@@ -127,20 +163,28 @@ class RetrievalBuffer(_ModuleBuffer):
             if bound.values is not None:
                 tests.append(SlotTest(slot, str(bound.values)))
             tests += [SlotTest(slot, str(word), negated=True) for word in bound.negvalues]
-        result = self._module.recall(otherchunk.typename, tests, time, self._sources())
+        asked = self.types.name_of(otherchunk)
+        result = self._module.recall(asked, tests, time, self._sources())
         if result.chunk is None:
             return None, result.latency_s
         self._name = result.chunk.name
-        return pyactr_chunk(result.chunk.chunk_type, result.chunk.slots), result.latency_s
+        return self.types.build(result.chunk.chunk_type, result.chunk.slots), result.latency_s
 
 
 class LandmarkBuffer(_ModuleBuffer):
-    """Sends decisions to the landmark module; holds the chunk of a new landmark."""
+    """Sends decisions to the landmark module.
+
+    Holds the chunk of a new landmark, if the rule set knows the type ``landmark``.
+    """
 
     def __init__(
-        self, harvest: Harvest | None, module: LandmarkModule, rule: Callable[[], str]
+        self,
+        types: ChunkTypes,
+        harvest: Harvest | None,
+        module: LandmarkModule,
+        rule: Callable[[], str],
     ) -> None:
-        super().__init__(harvest)
+        super().__init__(types, harvest)
         self._module = module
         self._rule = rule
 
@@ -157,24 +201,25 @@ class LandmarkBuffer(_ModuleBuffer):
         made = self._module.mark(
             MarkRequest(slots["outcome"], slots["event"], slots.get("landmark"), self._rule(), time)
         )
-        if made is None:
+        if made is None or made.chunk_type not in self.types:
             return None, 0.0
         self._name = made.name
-        return pyactr_chunk(made.chunk_type, made.slots), 0.0
+        return self.types.build(made.chunk_type, made.slots), 0.0
 
 
 class ImaginalBuffer(goals.Goal):
     """Builds a chunk over a delay; harvests into the project's own memory."""
 
-    def __init__(self, harvest: Harvest | None, delay: float) -> None:
+    def __init__(self, types: ChunkTypes, harvest: Harvest | None, delay: float) -> None:
         super().__init__(delay=delay)
+        self.types = types
         self._harvest = harvest
 
     @property
     def content(self) -> BufferChunk | None:
         """The chunk that the buffer holds."""
         for chunk in self:
-            return BufferChunk(chunk.typename, slots_of(chunk))
+            return self.types.read(chunk)
         return None
 
     def clear(self, time: float = 0.0, harvest: Any = None) -> None:  # noqa: ARG002

@@ -107,8 +107,7 @@ class Engine:
         self._random = np.random.RandomState(seed).get_state()
         self._noisy = rulebook.parameters.utility_noise > 0
         self._fired = ""
-        for name, slots in rulebook.chunk_types.items():
-            chunks.chunktype(name, " ".join(slots))
+        self._types = buffers.ChunkTypes(rulebook.chunk_types)
         model = pyactr.ACTRModel(
             subsymbolic=True,
             rule_firing=rulebook.parameters.rule_firing,
@@ -118,7 +117,7 @@ class Engine:
         self._buffers = self._wire(model, memory, landmarks, is_stock=stock is not None)
         for rule in rulebook.rules:
             if stock is None:
-                model.productions.update({rule.name: _compiled(rule)})
+                model.productions.update({rule.name: _compiled(rule, self._types)})
             else:
                 text = "\n".join(line.partition("#")[0] for line in rule.source.splitlines())
                 model.productionstring(name=rule.name, string=text, utility=rule.utility)
@@ -133,32 +132,34 @@ class Engine:
         self, model: Any, memory: DeclarativeModule, landmarks: LandmarkModule, *, is_stock: bool
     ) -> dict[str, Any]:
         """Put the model's buffers in place and the first goal into its buffer."""
-        kept = self.rulebook.harvest
+        kept, types = self.rulebook.harvest, self._types
         delay = self.rulebook.parameters.imaginal_delay
 
         def harvest(buffer: str) -> Callable[[BufferChunk, float], None] | None:
             return memory.harvest if buffer in kept else None
 
         made: dict[str, Any] = {
-            "orienting": buffers.OrientingBuffer(harvest("orienting")),
+            "orienting": buffers.OrientingBuffer(types, harvest("orienting")),
             "landmark": buffers.LandmarkBuffer(
-                harvest("landmark"), landmarks, lambda: self._fired
+                types, harvest("landmark"), landmarks, lambda: self._fired
             ),
         }
         if is_stock:
+            for name, slots_of_type in self.rulebook.chunk_types.items():
+                chunks.chunktype(name, " ".join(slots_of_type))
             made["g"], made["retrieval"] = model.goal, model.retrieval
             made["imaginal"] = model.set_goal("imaginal", delay)
         else:
-            made["g"] = buffers.ImaginalBuffer(harvest("g"), 0.0)
-            made["imaginal"] = buffers.ImaginalBuffer(harvest("imaginal"), delay)
+            made["g"] = buffers.ImaginalBuffer(types, harvest("g"), 0.0)
+            made["imaginal"] = buffers.ImaginalBuffer(types, harvest("imaginal"), delay)
             made["retrieval"] = buffers.RetrievalBuffer(
-                harvest("retrieval"), memory, self._sources
+                types, harvest("retrieval"), memory, self._sources
             )
             model.retrievals["retrieval"] = made["retrieval"]
             model.goals.update(g=made["g"], imaginal=made["imaginal"])
         model._ACTRModel__buffers.update(made)
         slots = {slot: word for slot, word in self.rulebook.goal.items() if slot != "isa"}
-        made["g"].add(buffers.pyactr_chunk(self.rulebook.goal["isa"], slots))
+        made["g"].add(types.build(self.rulebook.goal["isa"], slots))
         return made
 
     @property
@@ -265,7 +266,7 @@ class Engine:
     def _content(self, buffer: str) -> BufferChunk | None:
         holder = self._buffers.get(buffer)
         for chunk in holder if holder is not None else ():
-            return BufferChunk(chunk.typename, buffers.slots_of(chunk))
+            return self._types.read(chunk)
         return None
 
     def _sources(self) -> dict[str, tuple[str, ...]]:
@@ -278,11 +279,15 @@ class Engine:
         return found
 
 
-def _compiled(rule: Rule) -> dict[str, Any]:
+def _compiled(rule: Rule, types: buffers.ChunkTypes) -> dict[str, Any]:
     """Build pyactr's form of a rule: a generator of its two sides, built only once."""
-    left = {str(c)[:-1]: _query(c) if c.sign == "?" else _chunk(c) for c in rule.text.tests}
+    left = {
+        f"{c.sign}{c.buffer}": _query(c) if c.sign == "?" else _chunk(c, types)
+        for c in rule.text.tests
+    }
     right = {
-        str(c)[:-1]: None if c.sign == "~" else _chunk(c, filled=False) for c in rule.text.actions
+        f"{c.sign}{c.buffer}": None if c.sign == "~" else _chunk(c, types, filled=False)
+        for c in rule.text.actions
     }
 
     def sides() -> Iterator[dict[str, Any]]:
@@ -296,7 +301,7 @@ def _query(clause: Clause) -> dict[str, str]:
     return {pair.slot: pair.word for pair in clause.pairs}
 
 
-def _chunk(clause: Clause, *, filled: bool = True) -> Any:
+def _chunk(clause: Clause, types: buffers.ChunkTypes, *, filled: bool = True) -> Any:
     """Build the chunk of one side of a clause.
 
     In a test (`filled`), a variable matches only a slot that has a value, as in ACT-R; pyactr
@@ -315,4 +320,5 @@ def _chunk(clause: Clause, *, filled: bool = True) -> Any:
         if filled and pair.variable:
             part["negvalues"] += ("None",)
     slots = {slot: utilities.VarvalClass(**part) for slot, part in parts.items()}
-    return chunks.Chunk(clause.chunk_type, **slots)
+    assert clause.chunk_type is not None  # the rulebook's validation has seen to it
+    return types.build(clause.chunk_type, slots)

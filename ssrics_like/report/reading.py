@@ -86,8 +86,8 @@ def read_pictures(folder: Path, run: Run) -> Pictures:
         return Pictures(
             outline=_outline(data["outline"]),
             novelty=_novelty(data["novelty"], run.start_s),
-            novel=_histogram(data["histograms"]["novel"], run.start_s),
-            bored=_histogram(data["histograms"]["bored"], run.start_s),
+            novel=_histogram(data["histograms"]["novel"]),
+            bored=_histogram(data["histograms"]["bored"]),
             activation=_activation(data["activation"], run.start_s),
         )
     except OSError as e:
@@ -210,11 +210,11 @@ def _novelty(data: dict[str, Any], start_s: float) -> Novelty:
     return Novelty(_floats(data["t_s"]) - start_s, *columns)
 
 
-def _histogram(data: dict[str, Any] | None, start_s: float) -> Histogram | None:
+def _histogram(data: dict[str, Any] | None) -> Histogram | None:
     if data is None:
         return None
     return Histogram(
-        float(data["t_s"]) - start_s,
+        int(data["scan"]),
         float(data["tau"]),
         tuple(int(n) for n in data["counts"]),
         tuple(float(e) for e in data["edges"]),

@@ -133,8 +133,8 @@ class Histogram:
 
     Attributes
     ----------
-    t_s : float
-        When the interval ended, seconds since the start of the run.
+    scan : int
+        Index of the scan that completed the interval.
     tau : float
         Its boredom quotient.
     counts : tuple of int
@@ -143,7 +143,7 @@ class Histogram:
         One more than `counts`; the last bin begins at the gradient.
     """
 
-    t_s: float
+    scan: int
     tau: float
     counts: tuple[int, ...]
     edges: tuple[float, ...]

@@ -14,7 +14,7 @@ from typing import Any
 
 from ssrics_like.errors import ResultsError
 from ssrics_like.scenarios import tables
-from ssrics_like.scenarios.files import csv_line, json_text, write_atomically
+from ssrics_like.scenarios.files import csv_line, json_text, plain, write_atomically
 
 MANIFEST = "manifest.json"
 FORMAT = "ssrics-results"
@@ -51,10 +51,6 @@ class ResultsFolder:
                     f"{path}: holds '{foreign[0]}', which is no result of ssrics; "
                     "name an empty or new folder"
                 )
-        try:
-            self.staging.mkdir(parents=True, exist_ok=True)
-        except OSError as e:
-            raise ResultsError(f"{path}: cannot be written ({e.strerror})") from None
 
     def begin(self, description: dict[str, Any], *, resume: bool) -> dict[int, dict[str, Any]]:
         """Prepare for runs of a scenario.
@@ -74,10 +70,15 @@ class ResultsFolder:
         Raises
         ------
         ResultsError
-            To be resumed, but the runs there belong to another scenario.
+            The folder cannot be written; or it is to be resumed, but the runs there belong to
+            another scenario.
         """
         note = self.staging / "scenario.json"
         text = json_text(description)
+        try:
+            self.staging.mkdir(parents=True, exist_ok=True)
+        except OSError as e:
+            raise ResultsError(f"{self.path}: cannot be written ({e.strerror})") from None
         if resume and note.is_file():
             if note.read_text(encoding="utf-8") != text:
                 raise ResultsError(
@@ -91,6 +92,28 @@ class ResultsFolder:
         for partial in self.staging.glob("*.partial"):
             shutil.rmtree(partial)
         return {entry["run"]: entry for entry in self._entries()}
+
+    def complete(self, description: dict[str, Any]) -> dict[str, Any] | None:
+        """Return the manifest, if all runs of this description are here already."""
+        if not (self.path / MANIFEST).is_file():
+            return None
+        manifest = read_manifest(self.path)
+        same = all(manifest.get(key) == value for key, value in plain(description).items())
+        done = len(manifest["runs"]) == description["scenario"]["runs"]
+        return manifest if same and done else None
+
+    def tidy(self) -> None:
+        """Remove the separate runs once the tables hold all of them."""
+        shutil.rmtree(self.staging)
+
+    def abandon(self) -> None:
+        """Remove what an unfinished run left; the folder too, if nothing else is in it."""
+        for partial in self.staging.glob("*.partial"):
+            shutil.rmtree(partial)
+        if not self._complete():
+            self.tidy()
+            if not any(self.path.iterdir()):
+                self.path.rmdir()
 
     def open_run(self, run: int) -> Path:
         """Make the folder that a run is written to."""
@@ -134,13 +157,15 @@ class ResultsFolder:
                 ("figures.json", f"figures/{folder.name}.json"),
             ):
                 _link(folder / source, self.path / target)
-        manifest = {
-            "format": FORMAT,
-            "version": VERSION,
-            **description,
-            "warnings": warnings,
-            "runs": entries,
-        }
+        manifest: dict[str, Any] = plain(
+            {
+                "format": FORMAT,
+                "version": VERSION,
+                **description,
+                "warnings": warnings,
+                "runs": entries,
+            }
+        )
         write_atomically(self.path / MANIFEST, json_text(manifest))
         return manifest
 

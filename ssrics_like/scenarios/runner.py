@@ -73,12 +73,22 @@ def run_scenario(
         "input": {"file": source.path.name, "format": source.format, "sha256": source.sha256},
     }
     folder = ResultsFolder(out)
+    if resume:
+        finished = folder.complete(description)
+        if finished is not None:
+            return finished
     done = folder.begin(description, resume=resume)
     manifest: dict[str, Any] = {}
     for run in range(resolved.scenario.runs):
         if run not in done:
-            folder.close_run(run, _one_run(resolved, source, folder.open_run(run), run, progress))
+            try:
+                entry = _one_run(resolved, source, folder.open_run(run), run, progress)
+            except BaseException:
+                folder.abandon()
+                raise
+            folder.close_run(run, entry)
         manifest = folder.combine({**description, "wall_clock": _wall_clock(started)})
+    folder.tidy()
     return manifest
 
 

@@ -8,12 +8,13 @@ and the damage is kept for the caller to report.
 from __future__ import annotations
 
 import zlib
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING
 
 from ssrics_like.errors import SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from io import BufferedReader
     from pathlib import Path
 
 GZIP_MAGIC = b"\x1f\x8b"
@@ -55,26 +56,27 @@ class LineReader:
     def __iter__(self) -> Iterator[bytes]:
         try:
             with self._path.open("rb") as file:
-                magic = file.read(2)
-                file.seek(0)
-                chunks = self._inflated(file) if magic == GZIP_MAGIC else self._plain(file)
-                yield from self._split(chunks)
+                zipped = file.peek(2).startswith(GZIP_MAGIC)
+                yield from self._split(self._inflated(file) if zipped else self._plain(file))
         except OSError as problem:
-            raise SourceError(f"{self._path}: cannot be read: {problem.strerror or problem}") from problem
+            why = problem.strerror or problem
+            raise SourceError(f"{self._path}: cannot be read: {why}") from problem
 
-    def _plain(self, file: BinaryIO) -> Iterator[bytes]:
+    def _plain(self, file: BufferedReader) -> Iterator[bytes]:
         while block := file.read(_CHUNK):
             self.consumed += len(block)
             yield block
 
-    def _inflated(self, file: BinaryIO) -> Iterator[bytes]:
+    def _inflated(self, file: BufferedReader) -> Iterator[bytes]:
         decoder = zlib.decompressobj(_ZLIB_GZIP)
         for raw in self._plain(file):
             block = raw
             while block:
                 if decoder.eof:  # another member may follow; zeros are a tape's padding
                     block = block.lstrip(b"\0")
-                    decoder = zlib.decompressobj(_ZLIB_GZIP) if block else decoder
+                    if not block:
+                        break
+                    decoder = zlib.decompressobj(_ZLIB_GZIP)
                 try:
                     yield decoder.decompress(block)
                 except zlib.error:

@@ -79,30 +79,32 @@ class _Books:
         self._open: tuple[int, MalformedLineError] | None = None
 
     def malformed(self, problem: MalformedLineError) -> None:
-        number = self._report.lines
-        if self._strict:
-            raise SourceError(f"{self._path}:{number}: {problem}")
-        self._open = (number, problem)
+        self._open = (self._report.lines, problem)
 
     def settle(self) -> None:
-        if self._open is not None:
-            number, problem = self._open
-            self._open = None
-            self._report.malformed += 1
-            self._report.example(f"{self._path.name}:{number}: {problem}")
+        """Call the open line malformed: another follows, so it was not cut off."""
+        if self._open is None:
+            return
+        number, problem = self._open
+        self._open = None
+        if self._strict:
+            raise SourceError(f"{self._path}:{number}: {problem}")
+        self._report.malformed += 1
+        self._report.example(f"{self._path.name}:{number}: {problem}")
 
     def close(self, cut: str) -> None:
+        """End the books; `cut` says why the file ends too early, if it does."""
         if self._open is not None and not cut and self._open[1].short:
             cut = _INCOMPLETE
         if not cut:
             self.settle()
             return
-        number = self._report.lines
+        number, problem = self._open or (self._report.lines, None)
+        reason = cut if problem is None else f"{cut} ({problem})"
         if self._strict:
-            raise SourceError(f"{self._path}:{number}: {cut}")
-        reason = f" ({self._open[1]})" if self._open is not None else ""
+            raise SourceError(f"{self._path}:{number}: {reason}")
         self._report.truncated_last_line = True
-        self._report.example(f"{self._path.name}:{number}: {cut}{reason}")
+        self._report.truncation = f"{self._path.name}:{number}: {reason}"
 
 
 def _same_beams(found: int, before: int) -> None:

@@ -27,6 +27,8 @@ class ReadReport:
         The first few complaints as ``file:line: reason``.
     truncated_last_line : bool
         The file ends in the middle of a record, or its gzip stream was cut.
+    truncation : str
+        Where and how it was cut, as ``file:line: reason``, else empty.
     skipped : dict
         Kinds of records that were left alone on purpose, with their counts.
     timing : TimingSummary
@@ -42,6 +44,7 @@ class ReadReport:
     malformed: int = 0
     examples: list[str] = field(default_factory=list)
     truncated_last_line: bool = False
+    truncation: str = ""
     skipped: dict[str, int] = field(default_factory=dict)
     timing: TimingSummary = field(default_factory=TimingSummary)
     notes: list[str] = field(default_factory=list)
@@ -63,7 +66,7 @@ class ReadReport:
             shown = "; ".join(self.examples)
             found.append(f"{_many(self.malformed, 'malformed line')} left out: {shown}.")
         if self.truncated_last_line:
-            found.append("The file ends in the middle of a record; it was read up to there.")
+            found.append(f"The log is cut off; it was read up to there: {self.truncation}.")
         found += self._timing_warnings()
         for kind, number in sorted(self.skipped.items()):
             found.append(f"{_many(number, kind + ' record')} skipped.")

@@ -1,0 +1,181 @@
+"""What the page says in words and numbers: cards, tables, settings."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Mapping
+from typing import Any
+
+from ssrics_like.report.map_figure import TIPPED_MAX
+from ssrics_like.report.records import DECISIONS, Landmark, Results, Run
+from ssrics_like.report.style import decision_order
+from ssrics_like.report.times import time_text
+
+LATE_S = 1.0e6
+"""A start later than this is a date, not seconds since the source was switched on."""
+
+
+def content_of(results: Results) -> dict[str, Any]:
+    """Return all that the template shows besides figures, as plain values."""
+    run, scenario, manifest = results.shown, results.scenario, results.manifest
+    log = str(manifest["input"]["file"])
+    return {
+        "title": str(scenario["title"]) or log,
+        "log": log,
+        "modules": {
+            kind: str(scenario[kind]["name"]) for kind in ("perception", "productions", "memory")
+        },
+        "shown": run.number,
+        "start": _start(run),
+        "cards": cards(run),
+        "warnings": [str(text) for text in manifest["warnings"]],
+        "runs": [_run_row(each) for each in results.runs],
+        "decisions": _decisions_shown(results.runs),
+        "landmarks": [_landmark_row(i, mark) for i, mark in enumerate(run.landmarks)],
+        "linked": len(run.landmarks) <= TIPPED_MAX,
+        "rules_title": str(scenario["productions"].get("title", "")),
+        "rules": _rules(run, scenario["productions"]["rules"]),
+        "settings": [_settings(kind, scenario[kind]) for kind in ("perception", "memory")],
+        "facts": _facts(results),
+        "manifest": json.dumps(manifest, indent=2, ensure_ascii=False),
+    }
+
+
+def cards(run: Run) -> list[dict[str, str]]:
+    """Return the figures at the top of the page: what, how much, and a word of explanation."""
+    decided = run.decided
+    undecided = int(run.entry.get("undecided", 0))
+    reflexes = decided.total() + undecided
+    novelty = run.entry["novelty"]
+    novel, intervals = int(novelty["novel_intervals"]), int(novelty["intervals"])
+    share = f"{100 * novel / intervals:.0f} %" if intervals else "–"
+    found = [
+        ("scans", _grouped(int(run.entry["scans"])), ""),
+        ("duration", time_text(run.duration_s), ""),
+        ("path", f"{run.length_m:.1f} m", ""),
+        ("novel intervals", share, f"{_grouped(novel)} of {_grouped(intervals)}"),
+        ("reflexes", _grouped(reflexes), f"{undecided} undecided" if undecided else ""),
+    ]
+    kinds = [k for k in DECISIONS if k != "unsure" or decided[k]]
+    kinds += sorted(set(decided) - set(DECISIONS))
+    found += [(kind, _grouped(decided[kind]), "") for kind in kinds]
+    found.append(("landmarks", _grouped(len(run.landmarks)), "in memory at the end"))
+    rate = run.marks_per_100_m
+    found.append(
+        ("marks per 100 m", "–" if math.isnan(rate) else f"{rate:.1f}", "declared or recognised")
+    )
+    return [{"name": name, "value": value, "note": note} for name, value, note in found]
+
+
+def _grouped(count: int) -> str:
+    return f"{count:,}".replace(",", "\u202f")
+
+
+def _start(run: Run) -> str:
+    """Say what the log's clock showed at zero, where it was not zero too."""
+    if abs(run.start_s) < 1e-6:  # noqa: PLR2004 - the tables' last decimal
+        return ""
+    what = "Times count from the start of the run"
+    clock = "the log's clock, a date" if run.start_s > LATE_S else "the log's clock"
+    return f"{what}: zero is {run.start_s:.6f} s on {clock}."
+
+
+def _decisions_shown(runs: tuple[Run, ...]) -> list[str]:
+    """Return every decision that some run took, in the usual order."""
+    return sorted({kind for run in runs for kind in run.decided}, key=decision_order)
+
+
+def _run_row(run: Run) -> dict[str, Any]:
+    rate = run.marks_per_100_m
+    return {
+        "number": run.number,
+        "seed": run.entry.get("seed", ""),
+        "scans": run.entry["scans"],
+        "duration": time_text(run.duration_s),
+        "length": f"{run.length_m:.1f}",
+        "decided": dict(run.decided),
+        "landmarks": len(run.landmarks),
+        "rate": "–" if math.isnan(rate) else f"{rate:.1f}",
+        "ended": str(run.entry.get("ended", "")),
+    }
+
+
+def _landmark_row(index: int, mark: Landmark) -> dict[str, Any]:
+    """Return a landmark's cells: what is shown, and what it is sorted by."""
+    permanence = mark.permanence
+    return {
+        "index": index,
+        "sector": mark.sector,
+        "cells": [
+            (mark.name, index, "name"),
+            (time_text(mark.t_s), mark.t_s, "number"),
+            (f"{mark.x_m:.2f}", mark.x_m, "number"),
+            (f"{mark.y_m:.2f}", mark.y_m, "number"),
+            (f"{math.degrees(mark.theta_rad):.0f}°", mark.theta_rad, "number"),
+            (mark.sector, mark.sector, "sector"),
+            (mark.structure, mark.structure, "word"),
+            (f"{mark.salience:.2f}", mark.salience, "number"),
+            (str(mark.relevance), mark.relevance, "number"),
+            ("–" if permanence is None else f"{permanence:.2f}",
+             -math.inf if permanence is None else permanence, "number"),
+            (str(mark.visits), mark.visits, "number"),
+        ],
+    }  # fmt: skip
+
+
+def _rules(run: Run, rules: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return each production: its why where the manifest has it, its text, what it decided."""
+    by_rule = Counter(reflex.rule for reflex in run.reflexes)
+    found = []
+    for name, rule in rules.items():
+        why = str(rule.get("why", "")) if isinstance(rule, dict) else ""
+        text = str(rule["rule"] if isinstance(rule, dict) else rule)
+        found.append({"name": name, "why": why, "text": text, "decided": by_rule[name]})
+    return found
+
+
+def _settings(kind: str, profile: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a profile's settings, its title and source apart."""
+    values = {
+        str(key): _value(value)
+        for key, value in profile.items()
+        if key not in ("name", "title", "source")
+    }
+    return {
+        "kind": kind,
+        "name": str(profile["name"]),
+        "title": str(profile.get("title", "")),
+        "source": str(profile.get("source", "")),
+        "values": values,
+    }
+
+
+def _value(value: Any) -> str:
+    if value is None:
+        return "none"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:g}"
+    if isinstance(value, dict):
+        return ", ".join(f"{k} {_value(v)}" for k, v in value.items()) or "none"
+    return str(value)
+
+
+def _facts(results: Results) -> list[tuple[str, str]]:
+    """Return where the results come from."""
+    manifest = results.manifest
+    source, versions = manifest["input"], manifest["versions"]
+    facts = [
+        ("input", f"{source['file']} ({source['format']})"),
+        ("sha256", str(source["sha256"])),
+        ("frame of positions", str(manifest["frame"])),
+        ("seed", str(manifest["seed"])),
+        ("versions", ", ".join(f"{name} {version}" for name, version in versions.items())),
+    ]
+    wall = manifest.get("wall_clock")
+    if wall:
+        facts.append(("made", f"{wall['started']}, in {float(wall['seconds']):.1f} s"))
+    return facts

@@ -1,0 +1,135 @@
+"""The topological memory: landmarks and the ways that were gone between them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ssrics_like.memory.landmark import Arc
+from ssrics_like.report import style
+from ssrics_like.report.drawing import HALO, Drawing
+from ssrics_like.report.frames import Frame, show_frame
+from ssrics_like.report.labels import Room, text_half_size
+from ssrics_like.report.map_figure import HEIGHTS_PT, MARGINS_PT, draw_landmarks, run_frame
+from ssrics_like.report.records import Results
+from ssrics_like.report.walls import draw_walls
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+DISTANCES_MAX = 24
+THINNEST_PT, THICKEST_PT = 0.7, 5.0
+SHORT_PT = 26.0
+"""An arc shorter than this has no room for its distance."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """The arcs between two landmarks, both directions taken together.
+
+    Attributes
+    ----------
+    ends : tuple of str
+        The two landmarks.
+    traversals : int
+        How often it was gone.
+    distance_m : float
+        Mean straight distance as odometry had it.
+    """
+
+    ends: tuple[str, str]
+    traversals: int
+    distance_m: float
+
+
+def ways_of(arcs: Iterable[Arc]) -> list[Way]:
+    """Join arcs there and back, most gone first."""
+    joined: dict[tuple[str, str], Way] = {}
+    for arc in arcs:
+        ends = (min(arc.from_id, arc.to_id), max(arc.from_id, arc.to_id))
+        before = joined.get(ends, Way(ends, 0, 0.0))
+        n = before.traversals + arc.traversals
+        total_m = before.distance_m * before.traversals + arc.distance_m * arc.traversals
+        joined[ends] = Way(ends, n, total_m / n)
+    return sorted(joined.values(), key=lambda way: (-way.traversals, way.ends))
+
+
+def draw_graph(results: Results) -> Drawing | None:
+    """Draw the graph; None where no landmark was declared."""
+    run = results.shown
+    if not run.landmarks:
+        return None
+    left, right, bottom, _ = MARGINS_PT
+    top = 6.0
+    frame = run_frame(run, style.WIDTH_IN * style.POINTS - left - right, HEIGHTS_PT)
+    figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
+    axes = style.place_axes(figure, left, right, bottom, top)
+    draw_walls(axes, results.pictures.outline, frame, strength=0.45)
+    show_frame(axes, frame)
+    room = Room(frame.width_pt, frame.height_pt)
+    room.take(60, 10, 60, 14)  # the scale bar
+    ways = ways_of(results.arcs)
+    places = {mark.name: (mark.drawn_x_m, mark.drawn_y_m) for mark in run.landmarks}
+    _draw_ways(axes, ways, places)
+    tips = draw_landmarks(axes, run.landmarks, frame, room)
+    _draw_distances(axes, ways, places, frame, room)
+    where = "true position" if run.is_true else f"{results.manifest['frame']} frame"
+    axes.set_xlabel(f"x, m ({where})", loc="right", fontsize=style.SMALL_PT + 0.5)
+    axes.set_ylabel("y, m", loc="top", fontsize=style.SMALL_PT + 0.5, labelpad=1)
+    most = ways[0].traversals if ways else 0
+    return Drawing(
+        "graph",
+        figure,
+        f"Topological graph of {len(run.landmarks)} landmarks and {len(ways)} ways between them",
+        "The topological memory: landmarks where they were declared, joined where the robot went "
+        f"from one straight to the next. A thicker line was gone more often (up to {most} times, "
+        "either way); the numbers are remembered straight distances in metres, which need not agree "
+        "with the map: of the ways gone most, as many as there is room for.",
+        tips,
+    )
+
+
+def _draw_ways(axes: Axes, ways: list[Way], places: dict[str, tuple[float, float]]) -> None:
+    from matplotlib.collections import LineCollection
+
+    if not ways:
+        return
+    most = ways[0].traversals
+    widths = [
+        THINNEST_PT + (THICKEST_PT - THINNEST_PT) * math.sqrt((way.traversals - 1) / max(most - 1, 1))
+        for way in ways
+    ]
+    lines = [[places[end] for end in way.ends] for way in ways]
+    axes.add_collection(
+        LineCollection(lines, colors="#5d7a99", linewidths=widths, alpha=0.6, capstyle="round",
+                       zorder=3),
+        autolim=False,
+    )  # fmt: skip
+
+
+def _draw_distances(
+    axes: Axes,
+    ways: list[Way],
+    places: dict[str, tuple[float, float]],
+    frame: Frame,
+    room: Room,
+) -> None:
+    """Write distances at the middle of the ways gone most, where there is room."""
+    written = 0
+    for way in ways:
+        (x0, y0), (x1, y1) = (places[end] for end in way.ends)
+        if written == DISTANCES_MAX:
+            return
+        if math.hypot(x1 - x0, y1 - y0) * frame.points_per_m < SHORT_PT:
+            continue
+        middle = ((x0 + x1) / 2, (y0 + y1) / 2)
+        text = f"{way.distance_m:.1f}"
+        half = text_half_size(text, style.TINY_PT)
+        if room.find([frame.points(*middle)], *half) is not None:
+            axes.annotate(
+                text, middle, ha="center", va="center", fontsize=style.TINY_PT,
+                color=style.PATH_TO, zorder=10, gid=f"{HALO}-d{written}",
+            )  # fmt: skip
+            written += 1

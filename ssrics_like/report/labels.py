@@ -1,0 +1,89 @@
+"""Places labels so that none covers another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+GLYPH_WIDTH = 0.65
+"""Width of a digit or letter over the size of its font, a little on the wide side."""
+
+
+class Room:
+    """Keeps account of which boxes of a figure are taken, to place labels without overlap.
+
+    Parameters
+    ----------
+    width_pt, height_pt : float
+        Size of the axes; labels stay inside.
+    """
+
+    def __init__(self, width_pt: float, height_pt: float) -> None:
+        self._size = width_pt, height_pt
+        self._boxes: list[tuple[float, float, float, float]] = []
+
+    def take(self, x: float, y: float, half_width: float, half_height: float) -> None:
+        """Note that a box around a point is taken."""
+        self._boxes.append((x - half_width, y - half_height, x + half_width, y + half_height))
+
+    def find(
+        self, candidates: Iterable[tuple[float, float]], half_width: float, half_height: float
+    ) -> tuple[float, float] | None:
+        """Return, and take, the first candidate around which a box is free; None if none is."""
+        boxes = np.array(self._boxes, np.float64).reshape(-1, 4)
+        width, height = self._size
+        for x, y in candidates:
+            left, right = x - half_width, x + half_width
+            low, high = y - half_height, y + half_height
+            if left < 0 or low < 0 or right > width or high > height:
+                continue
+            clear = (
+                (boxes[:, 0] >= right) | (boxes[:, 2] <= left)
+                | (boxes[:, 1] >= high) | (boxes[:, 3] <= low)
+            )  # fmt: skip
+            if clear.all():
+                self.take(x, y, half_width, half_height)
+                return x, y
+        return None
+
+
+def around(x: float, y: float, gap: float, half_width: float, half_height: float) -> list[tuple[float, float]]:
+    """Return centres of eight boxes beside a point, the right one first."""
+    dx, dy = gap + half_width, gap + half_height
+    near = 0.75 * gap + half_width
+    return [
+        (x + dx, y), (x, y + dy), (x - dx, y), (x, y - dy),
+        (x + near, y + dy), (x - near, y + dy), (x + near, y - dy), (x - near, y - dy),
+    ]  # fmt: skip
+
+
+def text_half_size(text: str, size_pt: float) -> tuple[float, float]:
+    """Estimate half the width and height of a line of text, points."""
+    return len(text) * GLYPH_WIDTH * size_pt / 2, size_pt * 0.55
+
+
+def spread(wanted: Sequence[float], gap: float, low: float, high: float) -> list[float]:
+    """Move values apart to at least `gap`, as little as need be, within limits, keeping order.
+
+    Where they cannot all fit the gap shrinks.
+    """
+    count = len(wanted)
+    if count == 0:
+        return []
+    gap = min(gap, (high - low) / max(count - 1, 1))
+    order = np.argsort(np.asarray(wanted), kind="stable")
+    # With the gaps taken out, the nearest rising sequence is an isotonic regression.
+    shifted = [min(max(wanted[i], low), high) - k * gap for k, i in enumerate(order)]
+    blocks: list[tuple[float, int]] = []
+    for value in shifted:
+        mean, size = value, 1
+        while blocks and blocks[-1][0] > mean:
+            before, n = blocks.pop()
+            mean, size = (before * n + mean * size) / (n + size), n + size
+        blocks.append((mean, size))
+    level = [mean for mean, size in blocks for _ in range(size)]
+    placed = [0.0] * count
+    for k, i in enumerate(order):
+        placed[i] = min(max(level[k], low), high - (count - 1) * gap) + k * gap
+    return placed

@@ -1,0 +1,239 @@
+"""The map: walls as the laser saw them, the path, and what was decided where."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssrics_like.report import style
+from ssrics_like.report.drawing import HALO, Drawing
+from ssrics_like.report.frames import Frame, frame_around, kept_apart, show_frame
+from ssrics_like.report.labels import Room, around, text_half_size
+from ssrics_like.report.records import Landmark, Reflex, Results, Run
+from ssrics_like.report.times import time_text
+from ssrics_like.report.walls import draw_walls
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+MARGINS_PT = (34.0, 8.0, 30.0, 24.0)  # left, right, bottom, top
+HEIGHTS_PT = (230.0, 640.0)
+PATH_PARTS = 48
+TIPPED_MAX = 400
+"""So many landmarks are drawn one by one, with a tip each; more are drawn in bulk."""
+CROWD = 60  # landmarks from which on markers are drawn smaller
+
+
+def draw_map(results: Results) -> Drawing:
+    """Draw the map of the run that is shown."""
+    run = results.shown
+    left, right, bottom, top = MARGINS_PT
+    frame = run_frame(run, style.WIDTH_IN * style.POINTS - left - right, HEIGHTS_PT)
+    figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
+    axes = style.place_axes(figure, left, right, bottom, top)
+    draw_walls(axes, results.pictures.outline, frame)
+    show_frame(axes, frame)
+    draw_path(axes, run.path, frame)
+    _draw_reflexes(axes, run.reflexes, frame)
+    tips = draw_landmarks(axes, run.landmarks, frame, _ends(axes, run.path, frame))
+    where = "true position" if run.is_true else f"{results.manifest['frame']} frame"
+    axes.set_xlabel(f"x, m ({where})", loc="right", fontsize=style.SMALL_PT + 0.5)
+    axes.set_ylabel("y, m", loc="top", fontsize=style.SMALL_PT + 0.5, labelpad=1)
+    handles = _legend(run)
+    if handles:
+        axes.legend(
+            handles=handles, loc="lower left", bbox_to_anchor=(0, 1, 1, 0), borderaxespad=0.7,
+            ncols=len(handles), columnspacing=1.4, handlelength=1.0,
+        )  # fmt: skip
+    return Drawing(
+        "map",
+        figure,
+        f"Map of the path with {len(run.landmarks)} landmarks over the walls seen by the laser",
+        "Grey: where laser beams ended, drawn from the scans. The line is the robot's path, darker "
+        "with time. Filled dots are landmarks where they were declared, coloured by the sector in "
+        "which the largest reading lay; rings are places where one was recognised again. Rest the "
+        "pointer on a landmark for its particulars; where it is crowded, some carry no number.",
+        tips,
+    )
+
+
+def run_frame(run: Run, width_pt: float, heights_pt: tuple[float, float]) -> Frame:
+    """Return the part of the plane that shows a run's path and landmarks, with some margin."""
+    x = np.concatenate([run.path[:, 1], [mark.drawn_x_m for mark in run.landmarks]])
+    y = np.concatenate([run.path[:, 2], [mark.drawn_y_m for mark in run.landmarks]])
+    if len(x) == 0:
+        return frame_around(x, y, width_pt, heights_pt)
+    # Room for the walls beside the path.
+    margin = min(3.0, 0.5 + 0.08 * float(max(np.ptp(x), np.ptp(y))))
+    x = np.append(x, [x.min() - margin, x.max() + margin])
+    y = np.append(y, [y.min() - margin, y.max() + margin])
+    return frame_around(x, y, width_pt, heights_pt)
+
+
+def draw_path(
+    axes: Axes, path: NDArray[np.float64], frame: Frame, width: float = 1.1, parts: int = PATH_PARTS
+) -> None:
+    """Draw the path as a line that darkens with time."""
+    from matplotlib.collections import LineCollection
+    from matplotlib.colors import LinearSegmentedColormap
+
+    points = _thinned(path[:, 1:], 0.6 / frame.points_per_m)
+    if len(points) <= 1:
+        return
+    colours = LinearSegmentedColormap.from_list("time", [style.PATH_FROM, style.PATH_TO])
+    cuts = np.unique(np.linspace(0, len(points) - 1, parts + 1).astype(np.int64))
+    lines = [points[a : b + 1] for a, b in zip(cuts[:-1], cuts[1:], strict=True)]
+    shades = colours(np.linspace(0, 1, len(lines)))
+    axes.add_collection(
+        LineCollection(lines, colors=shades, linewidths=width, capstyle="round", zorder=2),
+        autolim=False,
+    )
+
+
+def _thinned(points: NDArray[np.float64], step_m: float) -> NDArray[np.float64]:
+    """Leave out points that lie within a step of the last one kept; the ends stay."""
+    keep = [0] if len(points) else []
+    for i, (x, y) in enumerate(points.tolist()):
+        last = points[keep[-1]]
+        if abs(x - last[0]) >= step_m or abs(y - last[1]) >= step_m:
+            keep.append(i)
+    if len(points) and keep[-1] != len(points) - 1:
+        keep.append(len(points) - 1)
+    chosen: NDArray[np.float64] = points[keep]
+    return chosen
+
+
+def _ends(axes: Axes, path: NDArray[np.float64], frame: Frame) -> Room:
+    """Mark start and end of the path; return what room labels have left."""
+    room = Room(frame.width_pt, frame.height_pt)
+    room.take(60, 10, 60, 14)  # the scale bar
+    if len(path) == 0:
+        return room
+    start, end = path[0, 1:], path[-1, 1:]
+    together = np.hypot(*(end - start)) * frame.points_per_m < 10  # noqa: PLR2004 - points
+    ends = [(start, "start, end", "s")] if together else [(start, "start", "s"), (end, "end", "D")]
+    for (x, y), text, marker in ends:
+        axes.plot(
+            x, y, marker, markersize=5.2, markerfacecolor="white", markeredgecolor=style.INK,
+            markeredgewidth=1.3, zorder=9,
+        )  # fmt: skip
+        px, py = frame.points(x, y)
+        room.take(px, py, 3.5, 3.5)
+        half = text_half_size(text, style.SMALL_PT)
+        place = room.find(around(px, py, 5.0, *half), *half)
+        if place is not None:
+            _label(axes, (x, y), (px, py), place, text, weight="bold")
+    return room
+
+
+def _label(
+    axes: Axes,
+    at_m: tuple[float, float],
+    at_pt: tuple[float, float],
+    place_pt: tuple[float, float],
+    text: str,
+    *,
+    weight: str = "normal",
+    size: float = style.SMALL_PT,
+) -> None:
+    axes.annotate(
+        text, at_m, (place_pt[0] - at_pt[0], place_pt[1] - at_pt[1]), textcoords="offset points",
+        ha="center", va="center_baseline", fontsize=size, fontweight=weight, zorder=12,
+        gid=f"{HALO}-{text}",
+    )  # fmt: skip
+
+
+def draw_landmarks(
+    axes: Axes, landmarks: tuple[Landmark, ...], frame: Frame, room: Room, labels_max: int = 150
+) -> dict[str, str]:
+    """Draw landmarks with their names where there is room; return tips by gid."""
+    size = 6.4 if len(landmarks) <= CROWD else 5.0
+    if len(landmarks) > TIPPED_MAX:
+        size = 3.4
+        for sector in sorted({mark.sector for mark in landmarks}):
+            places = [(m.drawn_x_m, m.drawn_y_m) for m in landmarks if m.sector == sector]
+            axes.plot(*zip(*places, strict=True), zorder=8, **_filled(sector, size))
+    tips = {}
+    for i, mark in enumerate(landmarks[: TIPPED_MAX if len(landmarks) <= TIPPED_MAX else 0]):
+        gid = f"lm{i}"
+        axes.plot(mark.drawn_x_m, mark.drawn_y_m, gid=gid, zorder=8, **_filled(mark.sector, size))
+        tips[gid] = describe(mark)
+    for mark in landmarks:
+        room.take(*frame.points(mark.drawn_x_m, mark.drawn_y_m), size / 2, size / 2)
+    order = sorted(range(len(landmarks)), key=lambda i: (-landmarks[i].visits, i))
+    for i in order[:labels_max]:
+        mark = landmarks[i]
+        at = frame.points(mark.drawn_x_m, mark.drawn_y_m)
+        half = text_half_size(mark.name, style.SMALL_PT)
+        place = room.find(around(*at, size / 2 + 0.5, *half), *half)
+        if place is not None:
+            _label(axes, (mark.drawn_x_m, mark.drawn_y_m), at, place, mark.name)
+    return tips
+
+
+def _filled(sector: str, size: float) -> dict[str, Any]:
+    return {
+        "marker": "o", "linestyle": "none", "markersize": size, "markeredgecolor": "white",
+        "markeredgewidth": 0.7, "markerfacecolor": style.sector_colour(sector),
+    }  # fmt: skip
+
+
+def describe(mark: Landmark) -> str:
+    """Return a landmark's particulars in one line."""
+    seen = ", ".join(word for word in (mark.sector, mark.structure) if word)
+    return (
+        f"{mark.name}: {seen}; declared at {time_text(mark.t_s)}, novelty {mark.salience:.2f}; "
+        f"visits: {mark.visits}"
+    )
+
+
+def _draw_reflexes(axes: Axes, reflexes: tuple[Reflex, ...], frame: Frame) -> None:
+    """Draw what is no new landmark, thinned where marks would cover each other."""
+    looks: dict[str, dict[str, Any]] = {
+        "recognised": {"marker": "o", "markersize": 4.4, "markerfacecolor": "none"},
+        "unsure": {"marker": "^", "markersize": 4.2, "markerfacecolor": "none"},
+        "dismissed": {"marker": ".", "markersize": 2.4},
+        "overwritten": {"marker": "x", "markersize": 3.6},
+    }
+    for zorder, decision in enumerate(("dismissed", "overwritten", "unsure", "recognised"), 3):
+        chosen = [r for r in reflexes if r.decision == decision]
+        for sector in sorted({r.sector for r in chosen}):
+            here = [r for r in chosen if r.sector == sector]
+            x, y = np.array([r.x_m for r in here]), np.array([r.y_m for r in here])
+            keep = kept_apart(x, y, 1.2 / frame.points_per_m)
+            hollow = decision in ("recognised", "unsure")
+            colour = style.sector_colour(sector) if hollow else style.MUTED
+            axes.plot(
+                x[keep], y[keep], linestyle="none", color=colour, markeredgewidth=0.9,
+                zorder=zorder, **looks[decision],
+            )  # fmt: skip
+
+
+def _legend(run: Run) -> list[Any]:
+    """Return a handle for each kind of thing that is on the map."""
+    from matplotlib.lines import Line2D
+
+    handles: list[Any] = []
+    known = [s for s in style.SECTORS if any(m.sector == s for m in run.landmarks)]
+    others = sorted({m.sector for m in run.landmarks} - set(style.SECTORS))
+    for sector in known + others:
+        count = sum(mark.sector == sector for mark in run.landmarks)
+        handles.append(
+            Line2D([], [], label=f"landmark, {sector} ({count})", **_filled(sector, 6.4))
+        )
+    looks: dict[str, dict[str, Any]] = {
+        "recognised": {"marker": "o", "markerfacecolor": "none", "markersize": 4.8},
+        "unsure": {"marker": "^", "markerfacecolor": "none", "markersize": 4.6},
+        "dismissed": {"marker": ".", "markersize": 3.6},
+        "overwritten": {"marker": "x", "markersize": 4.2},
+    }
+    for decision, look in looks.items():
+        count = run.decided[decision]
+        if count:
+            handles.append(
+                Line2D([], [], linestyle="none", color=style.MUTED, markeredgewidth=1.0,
+                       label=f"{decision} ({count})", **look)
+            )  # fmt: skip
+    return handles

@@ -1,0 +1,109 @@
+"""Puts figures, tables and the manifest together into one page that opens offline."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ssrics_like.errors import ResultsError
+from ssrics_like.report import style
+from ssrics_like.report.activation_figure import draw_activation
+from ssrics_like.report.content import content_of
+from ssrics_like.report.drawing import as_svg
+from ssrics_like.report.graph_figure import draw_graph
+from ssrics_like.report.histogram_figure import draw_histograms
+from ssrics_like.report.map_figure import draw_map
+from ssrics_like.report.novelty_figure import draw_novelty
+from ssrics_like.report.reading import read_results
+from ssrics_like.report.records import Results
+from ssrics_like.report.runs_figure import draw_runs
+from ssrics_like.report.timeline_figure import draw_timeline
+from ssrics_like.scenarios.files import write_atomically
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ssrics_like.report.drawing import Drawing
+
+PAGE = "report.html"
+
+FIGURES: tuple[tuple[str, str, Callable[[Results], Drawing | None], str], ...] = (
+    ("map", "Map", draw_map, ""),
+    ("runs", "All runs", draw_runs, ""),
+    ("novelty", "Novelty over time", draw_novelty,
+     "The run ended before the first interval was complete, so there is no novelty to show."),
+    ("histograms", "A novel and a bored interval", draw_histograms,
+     "The run ended before the first interval was complete, so there are no correlations to show."),
+    ("timeline", "Buffers and productions", draw_timeline,
+     "No reflex was decided in this run, so no buffer was used."),
+    ("activation", "Activation of landmarks", draw_activation,
+     "Declarative memory held no landmark in this run: none was declared, or the rule set keeps "
+     "no memory."),
+    ("graph", "Topological memory", draw_graph, "No landmark was declared in this run."),
+)  # fmt: skip
+"""Name, heading, how to draw it, and what to say where there is nothing to draw."""
+
+
+def write_report(folder: Path) -> Path:
+    """Draw the figures of a results folder and write its report.
+
+    What is written depends on nothing but the results: the same ones give the same bytes.
+
+    Parameters
+    ----------
+    folder : Path
+        A folder that ``ssrics run`` or ``ssrics replay`` wrote.
+
+    Returns
+    -------
+    Path
+        ``report.html``, which needs no other file; ``figures/*.svg`` stand beside it.
+
+    Raises
+    ------
+    ResultsError
+        The folder holds no results, a file is missing or damaged, or the report cannot be written.
+    MemoryFileError
+        The saved topological memory is missing or damaged.
+    """
+    folder = Path(folder)
+    results = read_results(folder)
+    sections = []
+    try:
+        (folder / "figures").mkdir(exist_ok=True)
+        for name, heading, draw, otherwise in FIGURES:
+            with style.context():
+                drawing = draw(results)
+                svg = as_svg(drawing) if drawing else ""
+            file = folder / "figures" / f"{name}.svg"
+            if drawing:
+                write_atomically(file, svg)
+            else:
+                file.unlink(missing_ok=True)  # of an earlier report
+            if drawing or otherwise:
+                caption = drawing.caption if drawing else ""
+                sections.append(
+                    {"name": name, "heading": heading, "svg": svg, "caption": caption,
+                     "otherwise": otherwise}
+                )  # fmt: skip
+        page = folder / PAGE
+        write_atomically(page, _rendered(results, sections))
+    except OSError as e:
+        raise ResultsError(f"{e.filename or folder}: cannot be written ({e.strerror})") from None
+    return page
+
+
+def _rendered(results: Results, sections: list[dict[str, str]]) -> str:
+    """Fill the template; everything but our own figures, style and script is escaped."""
+    import jinja2
+
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("ssrics_like.report", "template"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    content = content_of(results)
+    return environment.get_template("page.html").render(sections=sections, **content)

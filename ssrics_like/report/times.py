@@ -1,0 +1,36 @@
+"""Time for reading: a unit that suits a duration, a moment in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+MINUTE_S = 60.0
+HOUR_S = 3600.0
+
+@dataclass(frozen=True)
+class Clock:
+    """A unit of time that suits a duration."""
+
+    unit: str
+    seconds: float
+
+    def label(self) -> str:
+        """Return the label of a time axis."""
+        return f"time since the start, {self.unit}"
+
+
+def clock(duration_s: float) -> Clock:
+    """Choose seconds, minutes or hours for an axis of a duration."""
+    if duration_s < 3 * MINUTE_S:
+        return Clock("s", 1.0)
+    return Clock("min", MINUTE_S) if duration_s < 3 * HOUR_S else Clock("h", HOUR_S)
+
+
+def time_text(t_s: float) -> str:
+    """Return a time since the start for reading: ``42.1 s``, ``12:05``, ``1:02:30``."""
+    if abs(t_s) < MINUTE_S:
+        return f"{t_s:.1f} s"
+    sign, whole = ("-" if t_s < 0 else ""), round(abs(t_s))
+    minutes, seconds = divmod(whole, 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{sign}{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{sign}{minutes}:{seconds:02d}"

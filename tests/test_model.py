@@ -1,0 +1,196 @@
+"""The model as a whole: online, one observation at a time."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ssrics_like
+from ssrics_like import CognitiveModel, LaserScan, Observation, Pose
+from ssrics_like.library import find
+from ssrics_like.memory.profile import MemoryProfile
+from ssrics_like.perception.profile import PerceptionProfile
+from ssrics_like.productions.rulebook import load_rulebook
+
+BEAMS = 60
+# Short intervals that follow one another, so that a handful of scans makes a reflex.
+PERCEPTION = PerceptionProfile(
+    interval=2, advance="tumbling", mark="every", anchor="newest", repair_window=0, view_beams=12
+)
+# No noise, no threshold to speak of: what is recalled is decided by place alone.
+MEMORY = MemoryProfile(
+    retrieval_threshold=-6.0, latency_factor=0.005, mismatch_penalty=4.0, place_sigma_m=0.5
+)
+
+
+def observe(index, t_s, x_m, view, y_m=0.0):
+    """Return an observation of one of a few views; different views do not correlate."""
+    ranges = 2.0 + np.random.default_rng(view).random(BEAMS)
+    scan = LaserScan(ranges, -math.pi / 2, math.pi / BEAMS)
+    return Observation(index, t_s, Pose(x_m, y_m, 0.0), scan)
+
+
+def drive(model, stops):
+    """Pass each (x, view, other view): the change between the two is what is novel."""
+    decisions = []
+    for i, (x_m, view) in enumerate(stops):
+        decisions += model.observe(observe(2 * i, 10.0 * i, x_m, view))
+        decisions += model.observe(observe(2 * i + 1, 10.0 * i + 1.0, x_m, view + 1000))
+    return decisions + model.finish()
+
+
+def landmark_model(**kwargs):
+    return CognitiveModel(
+        PERCEPTION, load_rulebook(find("productions", "landmark")), MEMORY, **kwargs
+    )
+
+
+def test_a_place_is_declared_once_and_recognised_when_met_again():
+    model = landmark_model()
+    decisions = drive(model, [(0.0, 1), (10.0, 2), (0.1, 1), (10.1, 2)])
+    assert [d.decision for d in decisions] == ["declared", "declared", "recognised", "recognised"]
+    assert [d.landmark for d in decisions] == ["L1", "L2", "L1", "L2"]
+    assert [d.rule for d in decisions] == ["declare", "declare", "recognise", "recognise"]
+    assert len(model.topological) == 2
+    assert {node.id: node.visits for node in model.topological.nodes} == {"L1": 2, "L2": 2}
+
+
+def test_the_arcs_hold_distance_and_direction_of_each_way_driven():
+    model = landmark_model()
+    drive(model, [(0.0, 1), (10.0, 2), (0.0, 1), (10.0, 2)])
+    there, back = model.topological.arc("L1", "L2"), model.topological.arc("L2", "L1")
+    assert (there.traversals, back.traversals) == (2, 1)
+    assert there.distance_m == pytest.approx(10.0)
+    assert there.path_m == pytest.approx(10.0)
+    assert there.bearing_rad == pytest.approx(0.0)
+    assert abs(back.bearing_rad) == pytest.approx(math.pi)
+
+
+def test_recognising_strengthens_the_landmarks_chunk():
+    model = landmark_model()
+    drive(model, [(0.0, 1), (10.0, 2), (0.0, 1)])
+    assert len(model.declarative.references("L1")) == 2
+    assert len(model.declarative.references("L2")) == 1
+
+
+def test_a_mark_has_the_place_of_perceiving_and_the_time_of_deciding():
+    model = landmark_model()
+    (decision,) = drive(model, [(3.0, 1)])
+    assert (decision.scan, decision.t_s, decision.pose.x_m) == (1, 1.0, 3.0)
+    # Attending takes 50 ms, failing to recall latency_factor * exp(6) s, declaring 50 ms.
+    waited = 0.05 + round(0.005 * math.exp(6.0), 3) + 0.05
+    assert decision.decided_s == pytest.approx(1.0 + waited, abs=1e-3)
+    assert decision.confidence == 1.0
+    assert decision.activation is None
+
+
+def test_decisions_come_online_not_only_at_the_end():
+    model = landmark_model()
+    assert model.observe(observe(0, 0.0, 0.0, 1)) == []
+    assert model.observe(observe(1, 1.0, 0.0, 1001)) == []
+    assert model.decisions_pending == 1
+    (decision,) = model.observe(observe(2, 11.0, 5.0, 2))
+    assert decision.decision == "declared"
+    assert model.decisions_pending == 0
+
+
+def test_reflexes_that_come_too_fast_overwrite_each_other_and_are_counted():
+    model = landmark_model()
+    decisions = []
+    for i in range(40):  # a reflex every 20 ms, a decision takes seconds
+        decisions += model.observe(observe(i, 0.01 * i, 0.0, i))
+    decisions += model.finish()
+    outcomes = [d.decision for d in decisions]
+    assert len(decisions) == 20
+    assert outcomes.count("overwritten") == 18
+    assert all(d.rule == "" and d.landmark == "" for d in decisions if d.decision == "overwritten")
+    assert {d.event for d in decisions} == set(range(20))
+
+
+def test_report_rules_dismiss_a_novel_interval_in_the_same_sector():
+    model = CognitiveModel(
+        PERCEPTION.model_copy(update={"sector_rule": "maximum"}),
+        load_rulebook(find("productions", "report")),
+        MEMORY,
+    )
+    decisions = drive(model, [(0.0, 1), (10.0, 1), (20.0, 1)])
+    assert [d.decision for d in decisions] == ["declared", "dismissed", "dismissed"]
+    assert all(d.activation is None and d.confidence is None for d in decisions)
+    assert len(model.declarative) == 0
+
+
+def test_models_with_other_rules_can_take_turns_in_one_process():
+    alone = drive(landmark_model(), [(0.0, 1), (10.0, 2), (0.0, 1)])
+    model = landmark_model()
+    other = CognitiveModel(PERCEPTION, load_rulebook(find("productions", "report")), MEMORY)
+    decisions = []
+    for i, (x_m, view) in enumerate([(0.0, 1), (10.0, 2), (0.0, 1)]):
+        for j in (0, 1):
+            observation = observe(2 * i + j, 10.0 * i + j, x_m, view + 1000 * j)
+            decisions += model.observe(observation)
+            other.observe(observation)
+    assert decisions + model.finish() == alone
+
+
+def test_same_seed_same_decisions():
+    noisy = MEMORY.model_copy(update={"activation_noise": 1.0})
+    book = load_rulebook(find("productions", "landmark"))
+    stops = [(3.0 * (i % 5), i % 4) for i in range(30)]
+
+    def run(seed):
+        return drive(CognitiveModel(PERCEPTION, book, noisy, seed=seed), stops)
+
+    assert run(5) == run(5)
+    assert run(5) != run(6)
+
+
+def test_observations_must_not_go_back_in_time():
+    model = landmark_model()
+    model.observe(observe(0, 5.0, 0.0, 1))
+    with pytest.raises(ValueError, match="must come in order of time"):
+        model.observe(observe(1, 4.0, 0.0, 1))
+
+
+def test_finishing_without_any_observation_gives_nothing():
+    assert landmark_model().finish() == []
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    st.lists(
+        st.tuples(
+            st.floats(0.0, 3.0),
+            st.floats(-50.0, 50.0),
+            st.integers(0, 5),
+            st.sampled_from([0.0, math.nan, math.inf, 1.0]),
+        ),
+        max_size=40,
+    )
+)
+def test_every_reflex_is_decided_exactly_once_whatever_comes(steps):
+    model = landmark_model()
+    decisions, t_s = [], 0.0
+    for i, (pause_s, x_m, view, spoil) in enumerate(steps):
+        t_s += pause_s
+        observation = observe(i, t_s, x_m, view)
+        if spoil != 1.0:
+            observation.scan.ranges_m[::3] = spoil
+        decisions += model.observe(observation)
+    decisions += model.finish()
+    assert model.decisions_pending == 0
+    assert sorted(d.event for d in decisions) == list(range(len(decisions)))
+    for d in decisions:
+        assert d.decided_s >= d.t_s
+        assert 0.0 <= d.novelty <= 1.0
+        assert (d.landmark != "") == (d.decision in ("declared", "recognised"))
+    declared = [d.landmark for d in decisions if d.decision == "declared"]
+    assert [node.id for node in model.topological.nodes] == declared
+
+
+def test_public_names_are_what_they_say():
+    for name in ssrics_like.__all__:
+        assert getattr(ssrics_like, name).__name__ == name
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = ssrics_like.nothing

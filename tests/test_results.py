@@ -1,0 +1,310 @@
+"""The results folder: its contract, its sameness, and that nothing is lost."""
+
+import csv
+import gzip
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ssrics_like.errors import ResultsError, SourceError
+from ssrics_like.library import folder
+from ssrics_like.memory.store import load_topology
+from ssrics_like.scenarios.files import csv_line, number, write_atomically
+from ssrics_like.scenarios.folder import ResultsFolder, read_manifest
+from ssrics_like.scenarios.runner import run_scenario
+from ssrics_like.scenarios.schema import make_scenario, resolve
+from ssrics_like.scenarios.thinning import Outline, Series
+
+DEMO = folder("scenarios") / "logs" / "demo.log.gz"
+COLUMNS = {  # the contract, literally
+    "decisions.csv": "run,event,scan,t_s,decided_s,x_m,y_m,theta_rad,true_x_m,true_y_m,modality,"
+    "novelty,sector,structure,decision,landmark,rule,activation,confidence",
+    "landmarks.csv": "run,landmark,t_s,x_m,y_m,theta_rad,sector,structure,salience,relevance,"
+    "permanence,visits",
+    "path.csv": "run,t_s,x_m,y_m,theta_rad,true_x_m,true_y_m,true_theta_rad",
+}
+
+
+def scenario(log=DEMO, **changes):
+    data = {"source": {"log": str(log)}, "seed": 7, **changes}
+    return resolve(make_scenario(data), Path.cwd())
+
+
+def rows(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def files(path):
+    return {
+        str(item.relative_to(path)): item.read_bytes()
+        for item in sorted(path.rglob("*"))
+        if item.is_file() and item.name != "manifest.json"
+    }
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    out = tmp_path_factory.mktemp("results") / "out"
+    manifest = run_scenario(scenario(runs=2), out)
+    return out, manifest
+
+
+def test_the_tables_have_the_columns_of_the_contract(results):
+    out, _ = results
+    for name, header in COLUMNS.items():
+        assert (out / name).read_text().splitlines()[0] == header
+    for run in ("run-000", "run-001"):
+        assert (out / "topology" / f"{run}.json").is_file()
+        assert (out / "topology" / f"{run}.graphml").is_file()
+        assert (out / "trace" / f"{run}.jsonl").is_file()
+    assert not (out / ".runs").exists()
+
+
+def test_the_manifest_says_what_was_run(results):
+    out, manifest = results
+    assert read_manifest(out) == manifest
+    assert manifest["scenario"]["memory"]["decay"] == 0.5
+    assert manifest["scenario"]["perception"]["name"] == "human-like"
+    assert set(manifest["scenario"]["productions"]["rules"]) >= {"recognise", "declare"}
+    assert set(manifest["versions"]) >= {"ssrics-like", "pyactr", "numpy", "python"}
+    assert manifest["frame"] == "odometry"
+    assert manifest["input"]["file"] == "demo.log.gz"
+    assert len(manifest["input"]["sha256"]) == 64
+    first, second = manifest["runs"]
+    assert first["seed"] != second["seed"]
+    assert first["ended"] == "end of log"
+    assert first["scans"] == 1642
+    assert first["path_length_m"] == pytest.approx(89.1, abs=0.1)
+
+
+def test_every_row_fits_the_others(results):
+    out, manifest = results
+    decisions, landmarks = rows(out / "decisions.csv"), rows(out / "landmarks.csv")
+    for run, entry in enumerate(manifest["runs"]):
+        mine = [row for row in decisions if row["run"] == str(run)]
+        declared = [row["landmark"] for row in mine if row["decision"] == "declared"]
+        assert declared == [row["landmark"] for row in landmarks if row["run"] == str(run)]
+        assert len(declared) == entry["landmarks"] == entry["decisions"]["declared"] > 0
+        assert len(mine) == sum(entry["decisions"].values())
+        decided = [float(row["decided_s"]) for row in mine]
+        assert decided == sorted(decided)
+        assert all(float(row["t_s"]) <= float(row["decided_s"]) for row in mine)
+        graph = load_topology(out / "topology" / f"run-{run:03d}.json")
+        assert [node.id for node in graph.nodes] == declared
+        assert load_topology(out / "topology" / f"run-{run:03d}.graphml").arcs == graph.arcs
+
+
+def test_a_decision_stands_where_the_scan_was_taken(results):
+    out, _ = results
+    poses = {}
+    with gzip.open(DEMO, "rt") as log:
+        scans = (line.split() for line in log if line.startswith("FLASER"))
+        for i, words in enumerate(scans):
+            n = int(words[1])
+            poses[i] = (float(words[n + 2]), float(words[n + 3]), float(words[-1]))
+    for row in rows(out / "decisions.csv"):
+        x_m, y_m, t_s = poses[int(row["scan"])]
+        assert (float(row["x_m"]), float(row["y_m"])) == pytest.approx((x_m, y_m), abs=1e-6)
+        assert float(row["t_s"]) == pytest.approx(t_s, abs=1e-6)
+
+
+def test_the_path_is_thinned_to_ten_poses_a_second(results):
+    out, _ = results
+    times = [float(row["t_s"]) for row in rows(out / "path.csv") if row["run"] == "0"]
+    assert min(b - a for a, b in zip(times, times[1:], strict=False)) >= 0.1 - 1e-6
+
+
+def test_the_trace_holds_every_term_of_every_candidate(results):
+    out, manifest = results
+    lines = (out / "trace" / "run-000.jsonl").read_text().splitlines()
+    events = [json.loads(line) for line in lines]
+    assert all({"t_s", "module", "action", "name"} <= set(event) for event in events)
+    fired = [event for event in events if event["action"] == "production-fired"]
+    assert len(fired) == manifest["runs"][0]["firings"]
+    asked = [event["candidates"] for event in events if event["action"] == "activation"]
+    assert len(asked) == sum(event["name"] == "attend" for event in fired)
+    terms = ("base_level", "spreading", "partial_match", "noise")
+    for candidates in asked:
+        for i, total in enumerate(candidates["total"]):
+            assert total == pytest.approx(sum(candidates[t][i] for t in terms), abs=1e-5)
+
+
+def test_equal_runs_give_equal_bytes(results, tmp_path):
+    out, manifest = results
+    again = run_scenario(scenario(runs=2), tmp_path / "again")
+    assert files(tmp_path / "again") == files(out)
+    assert {**again, "wall_clock": 0} == {**manifest, "wall_clock": 0}
+
+
+def test_resume_keeps_finished_runs_and_does_the_rest(results, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    calls = []
+
+    def interrupt(run, share):
+        calls.append(run)
+        if run == 1 and share > 0.2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_scenario(scenario(runs=2), out, progress=interrupt)
+    assert [entry["run"] for entry in read_manifest(out)["runs"]] == [0]
+    assert {row["run"] for row in rows(out / "decisions.csv")} == {"0"}
+    calls.clear()
+    run_scenario(scenario(runs=2), out, resume=True, progress=lambda run, _: calls.append(run))
+    assert set(calls) == {1}
+    assert files(out) == files(results[0])
+    calls.clear()
+    run_scenario(scenario(runs=2), out, resume=True, progress=lambda run, _: calls.append(run))
+    assert calls == []
+
+
+def test_resuming_with_other_settings_is_refused(tmp_path):
+    out = tmp_path / "out"
+
+    def interrupt(run, _):
+        if run == 1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_scenario(scenario(runs=2), out, progress=interrupt)
+    with pytest.raises(ResultsError, match="made from other settings"):
+        run_scenario(scenario(runs=2, seed=8), out, resume=True)
+
+
+def test_an_interrupted_new_run_leaves_older_results_whole(results, tmp_path):
+    out = tmp_path / "out"
+    run_scenario(scenario(), out)
+    before = files(out)
+
+    def interrupt(_run, share):
+        if share > 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_scenario(scenario(seed=9), out, progress=interrupt)
+    assert files(out) == before
+
+
+def test_a_killed_run_leaves_no_half_written_table(tmp_path):
+    out = tmp_path / "out"
+    code = (
+        "import sys; from ssrics_like.cli import main; "
+        f"main(['replay', {str(DEMO)!r}, '-o', {str(out)!r}, '--runs', '200', '-q'])"
+    )
+    process = subprocess.Popen([sys.executable, "-c", code])
+    deadline = time.monotonic() + 60
+    while not (out / "manifest.json").exists() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    time.sleep(0.3)
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
+    manifest = read_manifest(out)
+    assert 0 < len(manifest["runs"]) < 200
+    for name in COLUMNS:
+        assert all(None not in row.values() for row in rows(out / name))
+
+
+def test_a_folder_with_other_files_is_left_alone(tmp_path):
+    (tmp_path / "thesis.tex").write_text("dear to me")
+    with pytest.raises(ResultsError, match=r"holds 'thesis\.tex', which is no result"):
+        run_scenario(scenario(), tmp_path)
+    assert (tmp_path / "thesis.tex").read_text() == "dear to me"
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ResultsError, match="is a file, expected a folder"):
+        ResultsFolder(tmp_path / "file")
+
+
+def test_a_log_that_stops_the_run_leaves_nothing_behind(tmp_path):
+    log = tmp_path / "bad.log"
+    good = gzip.decompress(DEMO.read_bytes()).decode().splitlines()[:200]
+    log.write_text("\n".join([*good, "FLASER 180 1.0 two", *good[-5:]]) + "\n")
+    data = {"source": {"log": str(log), "strict": True}}
+    with pytest.raises(SourceError, match=r"bad\.log:201"):
+        run_scenario(resolve(make_scenario(data), Path.cwd()), tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+    data["source"]["strict"] = False
+    manifest = run_scenario(resolve(make_scenario(data), Path.cwd()), tmp_path / "out")
+    assert any("malformed" in text for text in manifest["warnings"])
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("", "is damaged"), ("{}", "is not a results manifest"), ("[]", "is not a results manifest")],
+)
+def test_a_damaged_manifest_is_one_clear_line(tmp_path, text, said):
+    (tmp_path / "manifest.json").write_text(text)
+    with pytest.raises(ResultsError, match=said) as caught:
+        read_manifest(tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+def test_results_of_a_newer_version_and_missing_ones_are_refused(tmp_path):
+    (tmp_path / "manifest.json").write_text('{"format": "ssrics-results", "version": 99}')
+    with pytest.raises(ResultsError, match="version 99"):
+        read_manifest(tmp_path)
+    with pytest.raises(ResultsError, match="no such folder"):
+        read_manifest(tmp_path / "none")
+
+
+@given(st.floats(-1e12, 1e12))
+def test_numbers_have_at_most_six_decimals_and_no_needless_zeros(value):
+    text = number(value)
+    assert abs(float(text) - value) <= 0.5e-6 + 1e-15 * abs(value)
+    whole, _, decimals = text.partition(".")
+    assert len(decimals) <= 6
+    assert not decimals.endswith("0")
+    assert "e" not in whole
+    assert text != "-0"
+
+
+def test_what_is_no_number_is_left_empty():
+    assert csv_line([None, math.nan, math.inf, -0.0, 1e-9, 3, "a,b"]) == ',,,0,0,3,"a,b"\n'
+
+
+def test_an_atomic_write_that_fails_leaves_the_old_file(tmp_path):
+    path = tmp_path / "file"
+    write_atomically(path, "old")
+    with pytest.raises(TypeError):
+        write_atomically(path, None)
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_series_stays_small_and_keeps_mean_and_extremes():
+    series, values = Series(bins_max=8), [math.sin(i) for i in range(1000)]
+    for i, value in enumerate(values):
+        series.append(float(i), value)
+    data = series.as_data()
+    assert len(data["t_s"]) <= 8
+    assert min(data["least"]) == min(values)
+    assert max(data["largest"]) == max(values)
+    weights = [b - a for a, b in zip(data["t_s"], [*data["t_s"][1:], 1000.0], strict=True)]
+    mean = sum(w * m for w, m in zip(weights, data["mean"], strict=True)) / 1000
+    assert mean == pytest.approx(sum(values) / 1000)
+
+
+def test_an_outline_holds_the_cells_that_beams_ended_in():
+    import numpy as np
+
+    from ssrics_like import LaserScan, Observation, Pose
+
+    outline = Outline(range_max_m=8.0)
+    for i in range(5):
+        scan = LaserScan(np.array([1.0, 2.05, 9.0, math.inf, math.nan]), 0.0, math.pi / 2)
+        outline.add(Observation(i, float(i), Pose(0.001 * i, 0.0, 0.3 * (i % 2)), scan))
+    data = outline.as_data()
+    assert (10, 0) in zip(data["x"], data["y"], strict=True)
+    assert (0, 20) in zip(data["x"], data["y"], strict=True) or (-1, 20) in zip(
+        data["x"], data["y"], strict=True
+    )
+    assert len(data["x"]) == 4
