@@ -20,6 +20,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -118,8 +119,8 @@ def batch(scans: np.ndarray) -> bool:
     expected: list[int] = []
     for part in np.array_split(np.arange(SCANS - INTERVAL + 1), PARTS):
         profile_times += times_s(lambda: novelty_profile(scans), 3)
-        for size, times in products_times.items():
-            times += times_s(lambda size=size: bare_products(unit, size), 3)
+        for size in BLOCKS:
+            products_times[size] += times_s(partial(bare_products, unit, size), 3)
         start = time.perf_counter()
         expected += corrcoef_counts(scans, part)
         corrcoef_s += time.perf_counter() - start
@@ -167,9 +168,9 @@ def streaming(scans: np.ndarray) -> None:
         for row in rows:
             detector.update(row)
 
-    def buffer(**settings: str) -> Callable[[], None]:
+    def buffer(profile: PerceptionProfile) -> Callable[[], None]:
         def work() -> None:
-            perception = PerceptionBuffer(PerceptionProfile(**settings))
+            perception = PerceptionBuffer(profile)
             for observation in seen:
                 perception.update(observation)
 
@@ -183,8 +184,8 @@ def streaming(scans: np.ndarray) -> None:
         ("sector, robust", 20, lambda: [robust.classify(row) for row in rows]),
         ("sector, maximum", 20, lambda: [maximum.classify(row) for row in rows]),
         ("view", "", lambda: [describe_view(row, 36) for row in rows]),
-        ("PerceptionBuffer, default", 60, buffer()),
-        ("PerceptionBuffer, a mark each scan", 60, buffer(mark="every")),
+        ("PerceptionBuffer, default", 60, buffer(PerceptionProfile())),
+        ("PerceptionBuffer, a mark each scan", 60, buffer(PerceptionProfile(mark="every"))),
     ):
         work()
         print(f"  {name:40}{min(times_s(work, 3)) / len(rows) * 1e6:8.2f}{goal:>8}")

@@ -119,7 +119,7 @@ class LandmarkModules:
         sources: Mapping[str, Sequence[str]],
     ) -> Recall:
         """Answer a retrieval request (DeclarativeModule)."""
-        slots = tuple((test.slot, self._value(test.slot, test.value), test.negated) for test in tests)
+        slots = tuple((t.slot, self._value(t.slot, t.value), t.negated) for t in tests)
         found = self.declarative.retrieve(Request(chunk_type, slots), t_s, sources)
         self._recalled = found
         self._retrieved(t_s, found)
@@ -133,9 +133,11 @@ class LandmarkModules:
         if chunk.name is not None and chunk.name in self.declarative:
             self.declarative.strengthen(chunk.name, t_s)
             return
-        slots = {slot: self._value(slot, word) for slot, word in chunk.slots.items()}
+        seen = self._made.get(chunk.name or "")
+        slots = {slot: self._value(slot, word, seen) for slot, word in chunk.slots.items()}
         name = chunk.name or f"{chunk.chunk_type}-{len(self.declarative)}"
         self.declarative.add(Chunk(name, chunk.chunk_type, slots), t_s)
+        self._made.pop(name, None)
 
     def mark(self, request: MarkRequest) -> BufferChunk | None:
         """Carry out what a rule decided (LandmarkModule)."""
@@ -154,7 +156,7 @@ class LandmarkModules:
                 structure=reflex.structure,
                 salience=reflex.novelty,
             )
-            self._made[request.event] = (reflex, travelled_m)
+            self._made[name] = (reflex, travelled_m)
             slots = {
                 "id": name,
                 "sector": reflex.sector,
@@ -193,12 +195,13 @@ class LandmarkModules:
         self.last = name
         self._left = (reflex, travelled_m)
 
-    def _value(self, slot: str, word: str) -> str | View | Place:
-        """Look a handle up: the view or place of the reflex that it names."""
+    def _value(
+        self, slot: str, word: str, seen: tuple[Reflex, float] | None = None
+    ) -> str | View | Place:
+        """Look a handle up: the view or place of a reflex that is `seen` or still to be decided."""
         if slot not in CONTINUOUS:
             return word
-        event = word.partition("-")[2]
-        reflex, travelled_m = self._reflexes.get(event) or self._made[event]
+        reflex, travelled_m = seen or self._reflexes[word.partition("-")[2]]
         if slot == "view":
             return View(word, reflex.view)
         return Place(reflex.pose.x_m, reflex.pose.y_m, travelled_m)

@@ -60,37 +60,38 @@ class Document:
         return f"{self.path}:{mark.line}:{mark.column}" if mark else f"{self.path}"
 
 
-def read_document(path: Path, error: type[SettingsError] | type[Exception] = SettingsError) -> Document:
+def read_document(path: Path) -> Document:
     """Read a YAML file whose top level is a mapping.
 
     Raises
     ------
     SettingsError
-        Or the given kind of it: the file cannot be read, is empty, or is not YAML.
+        The file cannot be read, is empty, or is not YAML.
     """
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
-        raise error(f"{path}: no such file") from None
+        raise SettingsError(f"{path}: no such file") from None
     except IsADirectoryError:
-        raise error(f"{path}: is a folder, expected a YAML file") from None
+        raise SettingsError(f"{path}: is a folder, expected a YAML file") from None
     except (OSError, UnicodeDecodeError) as e:
-        raise error(f"{path}: cannot be read as text ({e.__class__.__name__})") from None
+        raise SettingsError(f"{path}: cannot be read as text ({e.__class__.__name__})") from None
     try:
         loader = yaml.SafeLoader(text)
         root = loader.get_single_node()
     except yaml.MarkedYAMLError as e:
         mark = e.problem_mark or e.context_mark
         place = f":{mark.line + 1}:{mark.column + 1}" if mark else ""
-        raise error(f"{path}{place}: not valid YAML: {e.problem}") from None
+        raise SettingsError(f"{path}{place}: not valid YAML: {e.problem}") from None
     except yaml.YAMLError as e:
-        raise error(f"{path}: not valid YAML: {str(e).splitlines()[0]}") from None
+        raise SettingsError(f"{path}: not valid YAML: {str(e).splitlines()[0]}") from None
     if root is None:
-        raise error(f"{path}: the file is empty, expected YAML keys")
+        raise SettingsError(f"{path}: the file is empty, expected YAML keys")
     document = Document(path)
     if not isinstance(root, yaml.MappingNode):
         mark = root.start_mark
-        raise error(f"{path}:{mark.line + 1}:{mark.column + 1}: expected keys and values at the top")
+        place = f"{path}:{mark.line + 1}:{mark.column + 1}"
+        raise SettingsError(f"{place}: expected keys and values at the top")
     document.data = _plain(root, (), document, loader, ())
     return document
 
@@ -139,18 +140,14 @@ def validated(kind: type[Settings], document: Document) -> Settings:
     try:
         settings = kind.model_validate(document.data)
     except ValidationError as e:
-        problems += [
-            f"{document.where(key)}: {text}" for key, text in explain(kind, e, document.data)
-        ]
+        problems += [f"{document.where(key)}: {text}" for key, text in explain(kind, e)]
         raise SettingsError("\n".join(_by_place(problems))) from None
     if problems:
         raise SettingsError("\n".join(problems))
     return settings
 
 
-def explain(
-    kind: type[BaseModel], error: ValidationError, data: Any
-) -> list[tuple[Key, str]]:
+def explain(kind: type[BaseModel], error: ValidationError) -> list[tuple[Key, str]]:
     """Say each of pydantic's complaints in one line: key, value, expectation, nearest name."""
     lines = []
     for item in error.errors():
@@ -169,9 +166,16 @@ def explain(
                 hint = nearest(value, expected.replace("'", "").replace(" or ", ", ").split(", "))
             lines.append((at, f"{key}: {value!r} where {expected} was expected{hint}"))
         else:
-            said = item["msg"].removeprefix("Value error, ").removeprefix("Input should be ")
-            lines.append((at, f"{key}: {_shown(item['input'])}: expected {said}"
-                          if not item["msg"].startswith("Value error") else f"{key}: {said}"))
+            said = item["msg"].removeprefix("Input should be ")
+            own = said.removeprefix("Value error, ")  # a validator's own words say it all
+            lines.append(
+                (
+                    at,
+                    f"{key}: {own}"
+                    if own != said
+                    else f"{key}: {_shown(item['input'])}: expected {said}",
+                )
+            )
     return lines
 
 
@@ -208,9 +212,9 @@ def fields_at(kind: type[BaseModel], at: Sequence[str | int]) -> list[str]:
         if info is None:
             continue  # a union's branch name, which is no key of the file
         model = _model_in(info.annotation)
-    return list(model.model_fields) if isinstance(model, type) and issubclass(
-        model, BaseModel
-    ) else []
+    return (
+        list(model.model_fields) if isinstance(model, type) and issubclass(model, BaseModel) else []
+    )
 
 
 def _model_in(annotation: Any) -> Any:
@@ -261,7 +265,7 @@ def override(settings: Settings, changes: Mapping[str, Any], prefix: str) -> Set
         try:
             return kind.model_validate(data)
         except ValidationError as e:
-            problems = [f"--set {prefix}{text}" for _, text in explain(kind, e, data)]
+            problems = [f"--set {prefix}{text}" for _, text in explain(kind, e)]
     raise SettingsError("\n".join(problems))
 
 

@@ -157,9 +157,7 @@ def test_help_shows_examples_and_imports_nothing_heavy():
         "heavy = {'numpy', 'numba', 'pyactr', 'matplotlib', 'pydantic', 'networkx'}\n"
         "print(sorted(heavy & set(sys.modules)))"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert "ssrics replay robot.log -o out/" in done.stdout
     assert done.stdout.splitlines()[-1] == "[]"
 

@@ -19,7 +19,12 @@ from ssrics_like.productions.rulebook import load_rulebook
 
 RULES = Path(__file__).parent / "rules"
 PERCEPTS = ((1, "left"), (3, "right"), (5, "left"), (6, "left"), (20, "left"), (60, "right"))
-BASE = {"decay": 0.5, "retrieval_threshold": -1.0, "latency_factor": 0.1}
+BASE = {
+    "decay": 0.5,
+    "retrieval_threshold": -1.0,
+    "latency_factor": 0.1,
+    "sector_difference": -1.0,  # ACT-R's default for any two values
+}
 VARIANTS = {
     "base": {},
     "rt-2.5": {"retrieval_threshold": -2.5},
@@ -84,9 +89,7 @@ def orienting_trace(**parameters) -> list[TraceEvent]:
         decided=lambda _: None,
         retrieved=lambda _time, _retrieval: None,
     )
-    engine = Engine(
-        load_rulebook(RULES / "orienting.yaml"), modules, modules, trace=trace.append
-    )
+    engine = Engine(load_rulebook(RULES / "orienting.yaml"), modules, modules, trace=trace.append)
     for event, (t_s, sector) in enumerate(PERCEPTS):
         chunk = BufferChunk("reflex", {"sector": sector, "event": "e"})
         assert engine.push("orienting", chunk, t_s) is None, event
@@ -226,7 +229,7 @@ def test_rules_that_never_come_to_rest_are_stopped(tmp_path):
         "    rule: =g> isa task state go ==> =g> isa task state go\n"
     )
     engine, _, _ = make(path)
-    with pytest.raises(EngineError, match="'again'.*must change what it tests"):
+    with pytest.raises(EngineError, match=r"'again'.*must change what it tests"):
         engine.settle()
 
 

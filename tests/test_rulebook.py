@@ -87,7 +87,7 @@ def test_a_rule_is_taken_apart_with_the_line_of_each_word():
     ],
 )
 def test_grammar_errors_name_their_line(rule, line, said):
-    with pytest.raises(RuleSyntaxError, match=".*") as caught:
+    with pytest.raises(RuleSyntaxError) as caught:
         parse_rule(rule)
     assert said in str(caught.value)
     assert caught.value.line == line

@@ -117,8 +117,10 @@ def test_any_text_gives_settings_or_a_settings_error(tmp_path_factory, text):
         st.sampled_from(["title", "runs", "inner", "optional", "weights", "other", "9"]),
         st.recursive(
             st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
-            lambda inner: st.lists(inner, max_size=3)
-            | st.dictionaries(st.sampled_from(["decay", "rule", "x"]), inner, max_size=3),
+            lambda inner: (
+                st.lists(inner, max_size=3)
+                | st.dictionaries(st.sampled_from(["decay", "rule", "x"]), inner, max_size=3)
+            ),
             max_leaves=6,
         ),
     )
@@ -150,7 +152,12 @@ def test_overrides_are_checked_like_the_file():
 
 @pytest.mark.parametrize(
     ("text", "expected"),
-    [("a.b=0.3", ("a.b", 0.3)), ("a=x=y", ("a", "x=y")), ("a=", ("a", None)), ("a=[1]", ("a", [1]))],
+    [
+        ("a.b=0.3", ("a.b", 0.3)),
+        ("a=x=y", ("a", "x=y")),
+        ("a=", ("a", None)),
+        ("a=[1]", ("a", [1])),
+    ],
 )
 def test_an_override_is_split_at_its_first_equals_sign(text, expected):
     assert settings.parse_override(text) == expected

@@ -86,6 +86,8 @@ def checked_labels(labels: Mapping[str, Label | None]) -> dict[str, Label]:
     ------
     ValueError
         For a label that is reserved, not printable or not finite.
+    TypeError
+        For a label that is neither text nor a number.
     """
     kept: dict[str, Label] = {}
     for name, given in labels.items():
@@ -97,7 +99,7 @@ def checked_labels(labels: Mapping[str, Label | None]) -> dict[str, Label]:
         if not name.isprintable() or (isinstance(value, str) and not value.isprintable()):
             raise ValueError(f"label {name!r} is {value!r}; expected printable text")
         if not isinstance(value, str | int | float):
-            raise ValueError(f"label '{name}' is {value!r}; expected text, a number or a boolean")
+            raise TypeError(f"label '{name}' is {value!r}; expected text, a number or a boolean")
         kept[name] = finite(name, value) if isinstance(value, float) else value
     return kept
 

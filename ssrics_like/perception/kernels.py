@@ -37,6 +37,7 @@ BLOCK = 16
 """Scans in one matrix product; small, since a block of b is multiplied with b + interval - 1."""
 
 _LANES = 8
+_NEARLY_EQUAL = 1e-8  # squared deviation, relative to the squared mean
 _TINY_SQUARES, _LARGE_SQUARES = 1e-100, 1e100
 
 
@@ -101,12 +102,14 @@ def _centre(a: NDArray[np.float64], n: int) -> float:
     mean = _sum(a, n) / n
     for k in range(n):
         a[k] -= mean
-    # The mean of nearly equal readings is rounded by as much as they differ; the
-    # mean of what is left corrects it.
-    mean = _sum(a, n) / n
-    for k in range(n):
-        a[k] -= mean
     squares = _dot(a, a, n)
+    if squares < _NEARLY_EQUAL * n * mean * mean:
+        # The mean of nearly equal readings is rounded by as much as they differ; the
+        # mean of what is left corrects it.
+        mean = _sum(a, n) / n
+        for k in range(n):
+            a[k] -= mean
+        squares = _dot(a, a, n)
     if squares < _TINY_SQUARES or squares > _LARGE_SQUARES:
         # The product of two such sums would underflow or overflow; a correlation
         # does not depend on the scale.

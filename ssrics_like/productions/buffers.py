@@ -64,7 +64,7 @@ class ChunkTypes:
 
     def name_of(self, chunk: Any) -> str:
         """Return the type of a pyactr chunk."""
-        return self._outside.get(chunk.typename, chunk.typename)
+        return self._outside.get(chunk.typename, str(chunk.typename))
 
     def read(self, chunk: Any, name: str | None = None) -> BufferChunk:
         """Return a pyactr chunk as plain words, without the slots that have no value."""
@@ -97,11 +97,11 @@ class _ModuleBuffer(buffers.Buffer):
         super().add(self.types.build(chunk.chunk_type, chunk.slots))
         self._name = chunk.name
 
-    def add(self, elem: Any, time: float = 0.0) -> None:  # noqa: ARG002 - pyactr's signature
+    def add(self, elem: Any, time: float = 0.0) -> None:
         """Set the chunk that a request produced (called by pyactr)."""
         super().add(elem)
 
-    def clear(self, time: float = 0.0, harvest: Any = None) -> None:  # noqa: ARG002
+    def clear(self, time: float = 0.0, harvest: Any = None) -> None:
         """Empty the buffer; its chunk goes to declarative memory (called by pyactr)."""
         content = self.content
         for chunk in tuple(self):
@@ -133,7 +133,8 @@ class OrientingBuffer(_ModuleBuffer):
             if content is None:
                 return False
             novelty = float(content.slots["novelty"])
-            return novelty > float(inquiry) if state == "novelty_above" else novelty < float(inquiry)
+            limit = float(inquiry)
+            return novelty > limit if state == "novelty_above" else novelty < limit
         return super().test(state, inquiry)
 
 
@@ -152,8 +153,13 @@ class RetrievalBuffer(_ModuleBuffer):
         self._sources = sources
 
     def retrieve(
-        self, time: float, otherchunk: Any, actrvariables: Any, buffers: Any,  # noqa: ARG002
-        extra_tests: Any, model_parameters: Any,  # noqa: ARG002 - pyactr's signature
+        self,
+        time: float,
+        otherchunk: Any,
+        actrvariables: Any,
+        buffers: Any,
+        extra_tests: Any,
+        model_parameters: Any,
     ) -> tuple[Any, float]:
         """Start a retrieval (called by pyactr)."""
         self.clear(time)
@@ -189,8 +195,13 @@ class LandmarkBuffer(_ModuleBuffer):
         self._rule = rule
 
     def retrieve(
-        self, time: float, otherchunk: Any, actrvariables: Any, buffers: Any,  # noqa: ARG002
-        extra_tests: Any, model_parameters: Any,  # noqa: ARG002 - pyactr's signature
+        self,
+        time: float,
+        otherchunk: Any,
+        actrvariables: Any,
+        buffers: Any,
+        extra_tests: Any,
+        model_parameters: Any,
     ) -> tuple[Any, float]:
         """Carry a decision out (called by pyactr)."""
         self.clear(time)
@@ -222,7 +233,7 @@ class ImaginalBuffer(goals.Goal):
             return self.types.read(chunk)
         return None
 
-    def clear(self, time: float = 0.0, harvest: Any = None) -> None:  # noqa: ARG002
+    def clear(self, time: float = 0.0, harvest: Any = None) -> None:
         """Empty the buffer; its chunk goes to declarative memory (called by pyactr)."""
         content = self.content
         for chunk in tuple(self):
@@ -230,7 +241,7 @@ class ImaginalBuffer(goals.Goal):
         if content is not None and self._harvest is not None:
             self._harvest(content, time)
 
-    def test(self, state: str, inquiry: str) -> bool:  # noqa: ARG002 - pyactr's signature
+    def test(self, state: str, inquiry: str) -> bool:
         """Answer ``?buffer> state ...``."""
         return bool(self.state == inquiry)
 

@@ -36,6 +36,7 @@ from pyactr import chunks, utilities  # noqa: E402
 from ssrics_like.productions import buffers  # noqa: E402
 
 PYACTR_VERSION = "0.3.2"
+UNNAMED, PROCEDURAL = "UNKNOWN", "PROCEDURAL"  # how pyactr marks its events
 IDLE_LIMIT_S = 60.0
 """A rule set that still fires this long after its last input is taken to run for ever."""
 
@@ -122,7 +123,7 @@ class Engine:
                 text = "\n".join(line.partition("#")[0] for line in rule.source.splitlines())
                 model.productionstring(name=rule.name, string=text, utility=rule.utility)
         self._simulation = model.simulation(gui=False, trace=False)
-        self._environment = self._simulation._Simulation__simulation
+        self._environment = self._simulation._Simulation__simulation  # noqa: SLF001 - no public way
         self._used_rules = model.productions.used_rulenames
         self._tracer = Tracer(self._rules, self._content, trace)
         self._simulation.__printevent__ = self._note
@@ -157,7 +158,7 @@ class Engine:
             )
             model.retrievals["retrieval"] = made["retrieval"]
             model.goals.update(g=made["g"], imaginal=made["imaginal"])
-        model._ACTRModel__buffers.update(made)
+        model._ACTRModel__buffers.update(made)  # noqa: SLF001 - no public method takes a buffer
         slots = {slot: word for slot, word in self.rulebook.goal.items() if slot != "isa"}
         made["g"].add(types.build(self.rulebook.goal["isa"], slots))
         return made
@@ -256,9 +257,9 @@ class Engine:
     def _note(self, event: Any) -> None:
         """Receive each event of pyactr, in place of its printing."""
         self._simulation.current_event = event
-        if event.action == utilities._UNKNOWN:
+        if event.action == UNNAMED:
             return
-        if event.proc == utilities._PROCEDURAL and event.action.startswith("RULE FIRED: "):
+        if event.proc == PROCEDURAL and event.action.startswith("RULE FIRED: "):
             self._fired = event.action.removeprefix("RULE FIRED: ")
             self.firings += 1
         self._tracer.translate(float(event.time), event.proc, event.action)

@@ -105,7 +105,7 @@ def parse_rule(text: str, first_line: int = 1) -> RuleText:
     arrows = [i for i, (word, _) in enumerate(words) if word == ARROW]
     if len(arrows) != 1:
         line = words[arrows[1]][1] if arrows else first_line
-        raise RuleSyntaxError(line, f"expected one '{ARROW}' between the sides, found {len(arrows)}")
+        raise RuleSyntaxError(line, f"expected one '{ARROW}' between sides, found {len(arrows)}")
     left, (_, arrow_line), right = words[: arrows[0]], words[arrows[0]], words[arrows[0] + 1 :]
     for side, where in ((left, "before"), (right, "after")):
         if not side:
@@ -113,9 +113,7 @@ def parse_rule(text: str, first_line: int = 1) -> RuleText:
     return RuleText(_clauses(left, TESTS, "left"), _clauses(right, ACTIONS, "right"))
 
 
-def _clauses(
-    words: list[tuple[str, int]], signs: dict[str, str], side: str
-) -> tuple[Clause, ...]:
+def _clauses(words: list[tuple[str, int]], signs: dict[str, str], side: str) -> tuple[Clause, ...]:
     heads = [i for i, (word, _) in enumerate(words) if word.endswith(">")]
     if not heads or heads[0] != 0:
         word, line = words[0]
@@ -155,7 +153,8 @@ def _pairs(head: str, body: list[tuple[str, int]]) -> list[Pair]:
         value = _VALUE.fullmatch(word)
         if value is None:
             raise RuleSyntaxError(
-                value_line, f"'{word}' for '{slot}': expected a word, =variable, ~word or ~=variable"
+                value_line,
+                f"'{word}' for '{slot}': expected a word, =variable, ~word or ~=variable",
             )
         negated, variable, name = value.groups()
         pairs.append(Pair(slot, name, bool(variable), bool(negated), value_line))

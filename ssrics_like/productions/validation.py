@@ -57,11 +57,8 @@ def _of_the_file(book: Rulebook) -> Iterator[tuple[str, str]]:
                 yield "chunk_types", f"chunk type '{name}': slot '{slot}' stands twice"
             if name in FIXED_TYPES and slot not in FIXED_TYPES[name]:
                 known = FIXED_TYPES[name]
-                yield (
-                    "chunk_types",
-                    f"chunk type '{name}': unknown slot '{slot}'{nearest(slot, known)}; "
-                    f"the module fills {choices(known)}",
-                )
+                hint = f"{nearest(slot, known)}; the module fills {choices(known)}"
+                yield "chunk_types", f"chunk type '{name}': unknown slot '{slot}'{hint}"
     goal_type = book.goal.get("isa")
     if goal_type is None:
         yield "goal", "goal: 'isa' is missing, expected a chunk type"
@@ -144,9 +141,9 @@ def _of_an_action(clause: Clause, tested: set[str]) -> Iterator[Problem]:
     if kind is None:
         return
     if clause.sign == "+" and not kind.requests:
-        yield clause.line, f"'{clause}': the {clause.buffer} buffer takes no requests ({kind.role})"
+        yield clause.line, f"'{clause}': {clause.buffer} takes no requests ({kind.role})"
     if clause.sign == "=" and not kind.modifies:
-        yield clause.line, f"'{clause}': the {clause.buffer} buffer cannot be modified ({kind.role})"
+        yield clause.line, f"'{clause}': {clause.buffer} cannot be modified ({kind.role})"
     elif clause.sign == "=" and clause.buffer not in tested:
         yield clause.line, f"'{clause}': modifies a buffer that the left side does not test"
     if clause.sign != "+" or clause.buffer != "retrieval":

@@ -8,7 +8,7 @@ from ssrics_like.report import style
 from ssrics_like.report.drawing import HALO, Drawing
 from ssrics_like.report.labels import spread
 from ssrics_like.report.records import Results
-from ssrics_like.report.times import clock
+from ssrics_like.report.words import clock, number_text
 
 SHOWN_MAX = 10
 """Landmarks drawn in colour; the others are pale."""
@@ -43,7 +43,7 @@ def draw_activation(results: Results) -> Drawing | None:
     axes.set_ylim(low, high)
     axes.axhline(threshold, color=style.ACCENT, linewidth=1.0, dashes=(5, 3), zorder=4)
     axes.annotate(
-        f"retrieval threshold {threshold:g}", (0, threshold), (4, 3), va="bottom", ha="left",
+        f"retrieval threshold {number_text(threshold, 2)}", (0, threshold), (4, 3), va="bottom", ha="left",
         xycoords=("axes fraction", "data"), textcoords="offset points", color=style.ACCENT,
         fontsize=style.SMALL_PT, fontweight="bold", gid=f"{HALO}-threshold", zorder=6,
     )  # fmt: skip

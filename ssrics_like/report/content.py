@@ -6,15 +6,17 @@ import json
 import math
 from collections import Counter
 from collections.abc import Mapping
+from datetime import UTC, datetime
 from typing import Any
 
 from ssrics_like.report.map_figure import TIPPED_MAX
 from ssrics_like.report.records import DECISIONS, Landmark, Results, Run
 from ssrics_like.report.style import decision_order
-from ssrics_like.report.times import time_text
+from ssrics_like.report.words import number_text, time_text
 
-LATE_S = 1.0e6
-"""A start later than this is a date, not seconds since the source was switched on."""
+CLOCK_STEP_S = 1e-6  # the last decimal of the tables
+EARLIEST_DATE_S, LATEST_DATE_S = 631152000.0, 4102444800.0
+"""Clocks between 1990 and 2100 are taken for seconds since 1970."""
 
 
 def content_of(results: Results) -> dict[str, Any]:
@@ -58,6 +60,7 @@ def cards(run: Run) -> list[dict[str, str]]:
         ("novel intervals", share, f"{_grouped(novel)} of {_grouped(intervals)}"),
         ("reflexes", _grouped(reflexes), f"{undecided} undecided" if undecided else ""),
     ]
+    found.append(("productions fired", _grouped(int(run.entry["firings"])), ""))
     kinds = [k for k in DECISIONS if k != "unsure" or decided[k]]
     kinds += sorted(set(decided) - set(DECISIONS))
     found += [(kind, _grouped(decided[kind]), "") for kind in kinds]
@@ -74,12 +77,14 @@ def _grouped(count: int) -> str:
 
 
 def _start(run: Run) -> str:
-    """Say what the log's clock showed at zero, where it was not zero too."""
-    if abs(run.start_s) < 1e-6:  # noqa: PLR2004 - the tables' last decimal
+    """Say what the source's clock showed at zero, where that was not zero too."""
+    if abs(run.start_s) < CLOCK_STEP_S:
         return ""
-    what = "Times count from the start of the run"
-    clock = "the log's clock, a date" if run.start_s > LATE_S else "the log's clock"
-    return f"{what}: zero is {run.start_s:.6f} s on {clock}."
+    text = f"Times count from the start of the run, at {run.start_s:.6f} s on the log's own clock"
+    if EARLIEST_DATE_S <= run.start_s < LATEST_DATE_S:
+        date = datetime.fromtimestamp(run.start_s, tz=UTC)
+        text += f" ({date:%Y-%m-%d %H:%M} UTC, if that counts from 1970)"
+    return f"{text}."
 
 
 def _decisions_shown(runs: tuple[Run, ...]) -> list[str]:
@@ -111,14 +116,14 @@ def _landmark_row(index: int, mark: Landmark) -> dict[str, Any]:
         "cells": [
             (mark.name, index, "name"),
             (time_text(mark.t_s), mark.t_s, "number"),
-            (f"{mark.x_m:.2f}", mark.x_m, "number"),
-            (f"{mark.y_m:.2f}", mark.y_m, "number"),
-            (f"{math.degrees(mark.theta_rad):.0f}°", mark.theta_rad, "number"),
+            (number_text(mark.x_m, 2), mark.x_m, "number"),
+            (number_text(mark.y_m, 2), mark.y_m, "number"),
+            (number_text(math.degrees(mark.theta_rad), 0) + "°", mark.theta_rad, "number"),
             (mark.sector, mark.sector, "sector"),
             (mark.structure, mark.structure, "word"),
             (f"{mark.salience:.2f}", mark.salience, "number"),
             (str(mark.relevance), mark.relevance, "number"),
-            ("–" if permanence is None else f"{permanence:.2f}",
+            ("–" if permanence is None else number_text(permanence, 2),
              -math.inf if permanence is None else permanence, "number"),
             (str(mark.visits), mark.visits, "number"),
         ],
@@ -158,7 +163,7 @@ def _value(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return f"{value:g}"
+        return f"{value:g}".replace("-", "−")
     if isinstance(value, dict):
         return ", ".join(f"{k} {_value(v)}" for k, v in value.items()) or "none"
     return str(value)

@@ -12,7 +12,13 @@ from ssrics_like.report import style
 from ssrics_like.report.drawing import HALO, Drawing
 from ssrics_like.report.frames import Frame, show_frame
 from ssrics_like.report.labels import Room, text_half_size
-from ssrics_like.report.map_figure import HEIGHTS_PT, MARGINS_PT, draw_landmarks, run_frame
+from ssrics_like.report.map_figure import (
+    HEIGHTS_PT,
+    MARGINS_PT,
+    draw_landmarks,
+    frame_text,
+    run_frame,
+)
 from ssrics_like.report.records import Results
 from ssrics_like.report.walls import draw_walls
 
@@ -20,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 DISTANCES_MAX = 24
-THINNEST_PT, THICKEST_PT = 0.7, 5.0
+THINNEST_PT, THICKEST_PT = 1.0, 5.0
 SHORT_PT = 26.0
 """An arc shorter than this has no room for its distance."""
 
@@ -63,7 +69,7 @@ def draw_graph(results: Results) -> Drawing | None:
         return None
     left, right, bottom, _ = MARGINS_PT
     top = 6.0
-    frame = run_frame(run, style.WIDTH_IN * style.POINTS - left - right, HEIGHTS_PT)
+    frame = run_frame(results, style.WIDTH_IN * style.POINTS - left - right, HEIGHTS_PT)
     figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
     axes = style.place_axes(figure, left, right, bottom, top)
     draw_walls(axes, results.pictures.outline, frame, strength=0.45)
@@ -75,18 +81,21 @@ def draw_graph(results: Results) -> Drawing | None:
     _draw_ways(axes, ways, places)
     tips = draw_landmarks(axes, run.landmarks, frame, room)
     _draw_distances(axes, ways, places, frame, room)
-    where = "true position" if run.is_true else f"{results.manifest['frame']} frame"
-    axes.set_xlabel(f"x, m ({where})", loc="right", fontsize=style.SMALL_PT + 0.5)
-    axes.set_ylabel("y, m", loc="top", fontsize=style.SMALL_PT + 0.5, labelpad=1)
+    axes.set_xlabel(f"metres, {frame_text(results)}", loc="right", fontsize=style.SMALL_PT)
     most = ways[0].traversals if ways else 0
+    thickness = (
+        f"The thicker a line, the more often it was gone, either way (up to {most} times)"
+        if most > 1
+        else "Each way was gone once"
+    )
     return Drawing(
         "graph",
         figure,
         f"Topological graph of {len(run.landmarks)} landmarks and {len(ways)} ways between them",
         "The topological memory: landmarks where they were declared, joined where the robot went "
-        f"from one straight to the next. A thicker line was gone more often (up to {most} times, "
-        "either way); the numbers are remembered straight distances in metres, which need not agree "
-        "with the map: of the ways gone most, as many as there is room for.",
+        f"from one straight to the next. {thickness}; the numbers beside lines are remembered "
+        "straight distances in metres, which need not agree with the map. They are written on the "
+        "ways gone most, as far as there is room.",
         tips,
     )
 

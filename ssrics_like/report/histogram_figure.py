@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.records import Histogram, Results
+from ssrics_like.report.words import fraction_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-HEIGHT_PT = 190.0
-LEFT_PT, RIGHT_PT, TOP_PT, BOTTOM_PT, BETWEEN_PT = 42.0, 8.0, 40.0, 44.0, 56.0
+HEIGHT_PT = 184.0
+LEFT_PT, RIGHT_PT, TOP_PT, BOTTOM_PT, BETWEEN_PT = 42.0, 8.0, 38.0, 30.0, 56.0
 BAR, LAST_BAR = "#b5c7d8", style.ACCENT
 
 
@@ -51,6 +52,8 @@ def _bars(axes: Axes, histogram: Histogram, name: str, threshold: float) -> None
     axes.bar(range(bins), counts, width=0.86, color=colours)
     top = max(counts) or 1
     for i, count in enumerate(counts):
+        if count == 0:
+            continue
         axes.annotate(
             f"{count}", (i, count), (0, 2), textcoords="offset points", ha="center", va="bottom",
             fontsize=style.TINY_PT, color=LAST_BAR if i == bins - 1 else style.MUTED,
@@ -58,31 +61,24 @@ def _bars(axes: Axes, histogram: Histogram, name: str, threshold: float) -> None
         )  # fmt: skip
     axes.set_xlim(-0.6, bins - 0.4)
     axes.set_ylim(0, top * 1.1)
-    axes.set_xticks([i - 0.5 for i in range(bins + 1)], [_edge(e) for e in edges])
-    labels = axes.get_xticklabels()
-    labels[0].set_text(f"≤ {_edge(edges[0])}")
-    axes.set_xticklabels([label.get_text() for label in labels])
+    labels = [fraction_text(edge) for edge in edges]
+    if edges[0] > -1:
+        labels[0] = f"≤ {labels[0]}"
+    axes.set_xticks([i - 0.5 for i in range(bins + 1)], labels)
     axes.set_xlabel("correlation of two scans")
     axes.set_ylabel("pairs of scans")
     axes.grid(axis="y")
     verdict = "above" if histogram.tau > threshold else "not above"
-    share = f"{histogram.tau:.3f}"
     axes.annotate(
-        f"{name.capitalize()} interval, τ = {share}", (0, 1), (0, 20), xycoords="axes fraction",
+        f"{name.capitalize()} interval, τ = {fraction_text(histogram.tau, 3)}", (0, 1), (0, 20), xycoords="axes fraction",
         textcoords="offset points", fontsize=style.FONT_PT + 1, fontweight="bold",
     )  # fmt: skip
     axes.annotate(
-        f"{counts[-1]} of {pairs} pairs are boring: {verdict} the threshold {threshold:g}; "
+        f"{counts[-1]} of {pairs} pairs are boring: {verdict} the threshold {fraction_text(threshold)}; "
         f"ends at scan {histogram.scan}",
         (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points",
         fontsize=style.SMALL_PT + 0.5, color=style.MUTED,
     )  # fmt: skip
-
-
-def _edge(value: float) -> str:
-    text = f"{abs(value):.4f}".rstrip("0").rstrip(".")
-    sign = "−" if value < 0 and text != "0" else ""
-    return sign + (text.removeprefix("0") or "0")
 
 
 def _nothing(axes: Axes, text: str) -> None:

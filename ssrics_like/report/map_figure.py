@@ -12,17 +12,18 @@ from ssrics_like.report.drawing import HALO, Drawing
 from ssrics_like.report.frames import Frame, frame_around, kept_apart, show_frame
 from ssrics_like.report.labels import Room, around, text_half_size
 from ssrics_like.report.records import Landmark, Reflex, Results, Run
-from ssrics_like.report.times import time_text
+from ssrics_like.report.words import seen_text, time_text
 from ssrics_like.report.walls import draw_walls
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-MARGINS_PT = (34.0, 8.0, 30.0, 24.0)  # left, right, bottom, top
+MARGINS_PT = (26.0, 6.0, 28.0, 24.0)  # left, right, bottom, top
 HEIGHTS_PT = (230.0, 640.0)
 PATH_PARTS = 48
 TIPPED_MAX = 400
 """So many landmarks are drawn one by one, with a tip each; more are drawn in bulk."""
+WALLS_CUT = 0.003  # share of the outline's cells that may lie beyond each edge of the map
 CROWD = 60  # landmarks from which on markers are drawn smaller
 
 
@@ -30,7 +31,7 @@ def draw_map(results: Results) -> Drawing:
     """Draw the map of the run that is shown."""
     run = results.shown
     left, right, bottom, top = MARGINS_PT
-    frame = run_frame(run, style.WIDTH_IN * style.POINTS - left - right, HEIGHTS_PT)
+    frame = run_frame(results, style.WIDTH_IN * style.POINTS - left - right, HEIGHTS_PT)
     figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
     axes = style.place_axes(figure, left, right, bottom, top)
     draw_walls(axes, results.pictures.outline, frame)
@@ -38,9 +39,8 @@ def draw_map(results: Results) -> Drawing:
     draw_path(axes, run.path, frame)
     _draw_reflexes(axes, run.reflexes, frame)
     tips = draw_landmarks(axes, run.landmarks, frame, _ends(axes, run.path, frame))
-    where = "true position" if run.is_true else f"{results.manifest['frame']} frame"
-    axes.set_xlabel(f"x, m ({where})", loc="right", fontsize=style.SMALL_PT + 0.5)
-    axes.set_ylabel("y, m", loc="top", fontsize=style.SMALL_PT + 0.5, labelpad=1)
+    where = frame_text(results)
+    axes.set_xlabel(f"metres, {where}", loc="right", fontsize=style.SMALL_PT)
     handles = _legend(run)
     if handles:
         axes.legend(
@@ -59,17 +59,22 @@ def draw_map(results: Results) -> Drawing:
     )
 
 
-def run_frame(run: Run, width_pt: float, heights_pt: tuple[float, float]) -> Frame:
-    """Return the part of the plane that shows a run's path and landmarks, with some margin."""
+def run_frame(results: Results, width_pt: float, heights_pt: tuple[float, float]) -> Frame:
+    """Return the part of the plane that holds the shown run's path, landmarks and walls."""
+    run, outline = results.shown, results.pictures.outline
     x = np.concatenate([run.path[:, 1], [mark.drawn_x_m for mark in run.landmarks]])
     y = np.concatenate([run.path[:, 2], [mark.drawn_y_m for mark in run.landmarks]])
-    if len(x) == 0:
-        return frame_around(x, y, width_pt, heights_pt)
-    # Room for the walls beside the path.
-    margin = min(3.0, 0.5 + 0.08 * float(max(np.ptp(x), np.ptp(y))))
-    x = np.append(x, [x.min() - margin, x.max() + margin])
-    y = np.append(y, [y.min() - margin, y.max() + margin])
+    if len(outline.x):
+        # Stray beams, through a door or window, may end outside.
+        bounds = [WALLS_CUT, 1 - WALLS_CUT]
+        x = np.append(x, np.quantile(outline.x, bounds) * outline.cell_m)
+        y = np.append(y, np.quantile(outline.y, bounds) * outline.cell_m)
     return frame_around(x, y, width_pt, heights_pt)
+
+
+def frame_text(results: Results) -> str:
+    """Say what the positions on a map are."""
+    return "true positions" if results.shown.is_true else f"{results.manifest['frame']} frame"
 
 
 def draw_path(
@@ -182,7 +187,7 @@ def _filled(sector: str, size: float) -> dict[str, Any]:
 
 def describe(mark: Landmark) -> str:
     """Return a landmark's particulars in one line."""
-    seen = ", ".join(word for word in (mark.sector, mark.structure) if word)
+    seen = seen_text(mark.sector, mark.structure)
     return (
         f"{mark.name}: {seen}; declared at {time_text(mark.t_s)}, novelty {mark.salience:.2f}; "
         f"visits: {mark.visits}"

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.records import Novelty, Results
-from ssrics_like.report.times import clock
+from ssrics_like.report.words import clock, fraction_text
 
 BINS_MAX = 1000  # about as many as the figure has pixels
-LEFT_PT, RIGHT_PT, TOP_PT, BOTTOM_PT = 72.0, 10.0, 8.0, 30.0
+LEFT_PT, RIGHT_PT, TOP_PT, BOTTOM_PT = 78.0, 54.0, 8.0, 28.0
 CURVE_PT, LANE_PT = 150.0, 13.0
 
 
@@ -42,9 +42,9 @@ def draw_novelty(results: Results) -> Drawing | None:
     axes.set_ylabel("novelty, 1 − τ")
     axes.grid(axis="y")
     axes.annotate(
-        f"novel from {_fraction(threshold)} up", (1, threshold), (-3, 3), va="bottom", ha="right",
+        f"novel ≥ {fraction_text(threshold)}", (1, threshold), (4, 0), va="center", ha="left",
         xycoords=("axes fraction", "data"), textcoords="offset points", color=style.ACCENT,
-        fontsize=style.SMALL_PT, fontweight="bold", gid="halo-threshold",
+        fontsize=style.SMALL_PT, fontweight="bold",
     )  # fmt: skip
     below = axes
     if kinds:
@@ -72,7 +72,7 @@ def draw_novelty(results: Results) -> Drawing | None:
         f"Novelty (1 minus the boredom quotient τ) of each interval of {interval} scans: the line "
         "is the mean, the band reaches from the least to the largest where several intervals share "
         "a pixel. An interval is novel where it reaches the dashed line (τ at most "
-        f"{_fraction(1.0 - threshold)}). Each tick below is a reflex, at the moment perceived, in "
+        f"{fraction_text(1.0 - threshold)}). Each tick below is a reflex, at the moment perceived, in "
         "the row of what was decided about it.",
     )
 
@@ -98,8 +98,3 @@ def _distinct(values: NDArray[np.float64], step: float) -> NDArray[np.float64]:
     _, first = np.unique(np.floor(values / step), return_index=True)
     chosen: NDArray[np.float64] = values[first]
     return chosen
-
-
-def _fraction(value: float) -> str:
-    """Write a fraction as the report does: ``.75``."""
-    return f"{value:.3f}".rstrip("0").rstrip(".").removeprefix("0") or "0"

@@ -25,8 +25,8 @@ def draw_runs(results: Results) -> Drawing | None:
     runs = results.runs[:MAPS_MAX]
     if len(runs) == 1:
         return None
-    columns = min(COLUMNS_MAX, len(runs)) if len(runs) != COLUMNS_MAX + 1 else 3
-    rows = math.ceil(len(runs) / columns)
+    rows = math.ceil(len(runs) / COLUMNS_MAX)
+    columns = math.ceil(len(runs) / rows)
     width_pt = (style.WIDTH_IN * style.POINTS - 2 - (columns - 1) * GAP_PT) / columns
     everywhere = np.concatenate([run.path[:, 1:] for run in runs])
     frame = frame_around(everywhere[:, 0], everywhere[:, 1], width_pt, HEIGHTS_PT)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ssrics_like.productions.syntax import RuleSyntaxError, RuleText, parse_rule
+from ssrics_like.report.words import seen_text
 
 PRODUCTIONS = "productions"
 GOAL = "g"
@@ -132,6 +133,5 @@ def _name(buffer: str, slots: Mapping[str, str]) -> str:
     if buffer == GOAL:
         return slots.get("state") or " ".join(slots.values())
     if buffer == "orienting":
-        parts = (slots.get("sector"), slots.get("structure"))
-        return ", ".join(part for part in parts if part)
+        return seen_text(slots.get("sector", ""), slots.get("structure", ""))
     return slots.get("id") or " ".join(slots.values())

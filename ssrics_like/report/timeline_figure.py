@@ -10,7 +10,7 @@ from ssrics_like.report.episodes import BEFORE_S, Episode, read_episodes
 from ssrics_like.report.labels import text_half_size
 from ssrics_like.report.records import Results
 from ssrics_like.report.spans import BUSY, FAILED, FIRED, FULL, GOAL, PRODUCTIONS, STOPPED, Span
-from ssrics_like.report.times import time_text
+from ssrics_like.report.words import seen_text, time_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,6 +20,8 @@ NAMES = {GOAL: "goal"}
 LEFT_PT, RIGHT_PT, TOP_PT, BOTTOM_PT = 66.0, 10.0, 26.0, 30.0
 LANE_PT, TITLE_PT = 17.0, 24.0
 MS = 1000.0
+SLACK_PT = 4.0
+"""A label may be estimated this much wider than its bar: estimates are on the wide side."""
 
 _LOOKS: dict[str, dict[str, Any]] = {
     FULL: {"facecolor": "#cfdeec", "edgecolor": "#8fb0cd"},
@@ -74,56 +76,58 @@ def _strip(axes: Axes, episode: Episode, lanes: list[str]) -> None:
     low, high = axes.get_xlim()
     for lane in range(len(lanes)):
         axes.axhline(lane + 0.5, color=style.RULE, linewidth=0.6, zorder=0)
-    for span in episode.spans:
-        if span.lane in lanes:
-            start = max((span.start_s - episode.arrival_s) * MS, low)
-            end = min((span.end_s - episode.arrival_s) * MS, high,
-                      (episode.end_s - episode.arrival_s) * MS)  # fmt: skip
-            _bar(axes, span, start, end, lanes.index(span.lane))
+    end_ms = min((episode.end_s - episode.arrival_s) * MS, high)
+    for lane, name in enumerate(lanes):
+        spans = sorted((s for s in episode.spans if s.lane == name), key=lambda s: s.start_s)
+        starts = [max((s.start_s - episode.arrival_s) * MS, low) for s in spans]
+        for span, start, free in zip(spans, starts, [*starts[1:], high], strict=False):
+            end = min((span.end_s - episode.arrival_s) * MS, end_ms)
+            if end > start:
+                _bar(axes, span, (start, end, free), lane)
     axes.axvline(0.0, color=style.MUTED, linewidth=0.7, dashes=(2, 2), zorder=1)
     axes.set_yticks(range(len(lanes)), [NAMES.get(lane, lane) for lane in lanes])
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
     reflex = episode.reflex
-    seen = ", ".join(word for word in (reflex.sector, reflex.structure) if word)
+    seen = seen_text(reflex.sector, reflex.structure)
     outcome = f"{reflex.decision} {reflex.landmark}".strip()
     axes.annotate(
         f"Reflex {reflex.event}: {outcome}", (0, 1), (-LEFT_PT + 2, 6), xycoords="axes fraction",
         textcoords="offset points", fontsize=style.FONT_PT, fontweight="bold",
     )  # fmt: skip
-    decided_ms = (reflex.decided_s - reflex.t_s) * MS
     axes.annotate(
         f"perceived at {time_text(reflex.t_s)} ({seen}; novelty {reflex.novelty:.2f}), "
-        f"decided {decided_ms:.0f} ms later",
+        f"decided {reflex.decided_s - reflex.t_s:.2f} s later",
         (1, 1), (0, 6), xycoords="axes fraction", textcoords="offset points", ha="right",
         fontsize=style.SMALL_PT, color=style.MUTED,
     )  # fmt: skip
 
 
-def _bar(axes: Axes, span: Span, start: float, end: float, lane: int) -> None:
+def _bar(axes: Axes, span: Span, times_ms: tuple[float, float, float], lane: int) -> None:
+    """Draw a span from its start to its end; its label goes inside, or beside if that is free."""
     from matplotlib.patches import Rectangle
 
-    if end <= start:
-        return
+    start, end, free = times_ms
     look = _LOOKS[span.kind]
     axes.add_patch(Rectangle((start, lane - 0.36), end - start, 0.72, linewidth=0.8, **look))
     text = f"{span.label}: none" if span.kind == FAILED else span.label
     low, high = axes.get_xlim()
     points_per_ms = (style.WIDTH_IN * style.POINTS - LEFT_PT - RIGHT_PT) / (high - low)
-    width_pt = (end - start) * points_per_ms
-    size = style.SMALL_PT
-    needed = 2 * text_half_size(text, size)[0]
-    if needed > width_pt + 2:
-        size = style.TINY_PT
-        needed = 2 * text_half_size(text, size)[0]
-    if needed > width_pt + 8 or not text:
-        return
-    hatched = span.kind in (BUSY, FAILED)
-    axes.text(
-        (start + end) / 2, lane + 0.02, text, ha="center", va="center", fontsize=size,
-        color="white" if span.kind == FIRED else style.INK,
-        gid=f"{HALO}-{lane}-{start:.0f}" if hatched else None, zorder=5,
-    )  # fmt: skip
+    inside_pt, beside_pt = (end - start) * points_per_ms, (free - end) * points_per_ms
+    place: dict[str, Any] = {"va": "center_baseline", "zorder": 5}
+    if span.kind == BUSY or span.kind == FAILED:
+        place["gid"] = f"{HALO}-{lane}-{start:.0f}"
+    for size in (style.SMALL_PT, style.TINY_PT):
+        needed_pt = 2 * text_half_size(text, size)[0]
+        if needed_pt <= inside_pt + SLACK_PT:
+            colour = "white" if span.kind == FIRED else style.INK
+            axes.text(
+                (start + end) / 2, lane, text, ha="center", fontsize=size, color=colour, **place
+            )
+            return
+    if needed_pt <= beside_pt:
+        axes.text(end + 3 / points_per_ms, lane, text, fontsize=style.SMALL_PT,
+                  color=style.INK, **place)  # fmt: skip
 
 
 def _legend(figure: Any, kinds: set[str], height_pt: float) -> None:

@@ -58,7 +58,7 @@ def _scenario(path: Path) -> str:
     return f"'{resolved.scenario.title}', {resolved.scenario.runs} run(s) of {resolved.log.name}"
 
 
-def _profile(kind: type[PerceptionProfile] | type[MemoryProfile]) -> Callable[[Path], str]:
+def _profile(kind: type[PerceptionProfile | MemoryProfile]) -> Callable[[Path], str]:
     def check(path: Path) -> str:
         return f"'{settings.validated(kind, settings.read_document(path)).title}'"
 
@@ -69,7 +69,8 @@ def _log(path: Path) -> str:
     source = open_log(path)
     scans = sum(1 for _ in source)
     said = "; ".join(source.report.warnings())
-    return f"{source.format} log, {scans} scans, frame {source.frame}" + (f"; {said}" if said else "")
+    what = f"{source.format} log, {scans} scans, frame {source.frame}"
+    return f"{what}; {said}" if said else what
 
 
 KINDS: dict[str, Callable[[Path], str]] = {

@@ -15,7 +15,7 @@ from typing import Any
 DECIMALS = 6
 
 
-def number(value: float | int | None) -> str:
+def number(value: float | None) -> str:
     """Write a number with at most six decimals; nothing for None and for what is not finite."""
     if value is None:
         return ""

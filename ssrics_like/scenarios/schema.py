@@ -121,7 +121,7 @@ def make_scenario(data: dict[str, Any]) -> Scenario:
     try:
         return Scenario.model_validate(data)
     except ValidationError as e:
-        lines = [text for _, text in settings.explain(Scenario, e, data)]
+        lines = [text for _, text in settings.explain(Scenario, e)]
         raise SettingsError("\n".join(lines)) from None
 
 

@@ -9,14 +9,51 @@ from ssrics_like.decision import Decision
 from ssrics_like.model import CognitiveModel
 from ssrics_like.perception.observation import Observation, Pose
 
-DECISIONS = (
-    "run,event,scan,t_s,decided_s,x_m,y_m,theta_rad,true_x_m,true_y_m,modality,novelty,sector,"
-    "structure,decision,landmark,rule,activation,confidence"
-).split(",")
-LANDMARKS = (
-    "run,landmark,t_s,x_m,y_m,theta_rad,sector,structure,salience,relevance,permanence,visits"
-).split(",")
-PATH = "run,t_s,x_m,y_m,theta_rad,true_x_m,true_y_m,true_theta_rad".split(",")
+DECISIONS = [
+    "run",
+    "event",
+    "scan",
+    "t_s",
+    "decided_s",
+    "x_m",
+    "y_m",
+    "theta_rad",
+    "true_x_m",
+    "true_y_m",
+    "modality",
+    "novelty",
+    "sector",
+    "structure",
+    "decision",
+    "landmark",
+    "rule",
+    "activation",
+    "confidence",
+]
+LANDMARKS = [
+    "run",
+    "landmark",
+    "t_s",
+    "x_m",
+    "y_m",
+    "theta_rad",
+    "sector",
+    "structure",
+    "salience",
+    "relevance",
+    "permanence",
+    "visits",
+]
+PATH = [
+    "run",
+    "t_s",
+    "x_m",
+    "y_m",
+    "theta_rad",
+    "true_x_m",
+    "true_y_m",
+    "true_theta_rad",
+]
 
 
 def decision_row(run: int, d: Decision) -> list[Any]:
@@ -37,7 +74,9 @@ def path_row(run: int, o: Observation) -> list[Any]:
     ]  # fmt: skip
 
 
-def landmark_rows(run: int, model: CognitiveModel, start_s: float, end_s: float) -> Iterator[list[Any]]:
+def landmark_rows(
+    run: int, model: CognitiveModel, start_s: float, end_s: float
+) -> Iterator[list[Any]]:
     """Return the rows of landmarks.csv.
 
     Salience is the novelty at which the landmark was declared; relevance the number of other

@@ -98,9 +98,7 @@ class Outline:
 
     def _merge(self) -> None:
         keys = np.concatenate([self._cells, *self._pending])
-        weights = np.concatenate(
-            [self._counts, np.ones(self._pending_size, np.int64)]
-        )
+        weights = np.concatenate([self._counts, np.ones(self._pending_size, np.int64)])
         self._cells, where = np.unique(keys, return_inverse=True)
         self._counts = np.bincount(where, weights, len(self._cells)).astype(np.int64)
         self._pending, self._pending_size = [], 0

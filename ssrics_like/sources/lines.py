@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 GZIP_MAGIC = b"\x1f\x8b"
-_CHUNK = 1 << 14  # gzip expands at most 1032-fold: 16 MB at the very worst
+_CHUNK = 1 << 14
+_MAX_INFLATED = 1 << 18
 _MAX_LINE = 1 << 20  # a scan of 100,000 beams; longer is no record
 _ZLIB_GZIP = 31  # wbits: gzip header and trailer expected
 _BOM = b"\xef\xbb\xbf"
@@ -77,15 +78,17 @@ class LineReader:
                     if not block:
                         break
                     decoder = zlib.decompressobj(_ZLIB_GZIP)
+                before = decoder.copy()
                 try:
-                    yield decoder.decompress(block)
+                    yield decoder.decompress(block, _MAX_INFLATED)
                 except zlib.error:
                     self.damage = "the gzip stream is damaged from here on"
+                    yield from _salvage(before, block)
                     return
-                block = decoder.unused_data
+                block = decoder.unused_data if decoder.eof else decoder.unconsumed_tail
+        yield decoder.flush()
         if not decoder.eof:
             self.damage = "the gzip stream is cut off"
-            yield decoder.flush()
 
     def _split(self, chunks: Iterator[bytes]) -> Iterator[bytes]:
         tail = b""
@@ -109,3 +112,12 @@ class LineReader:
         self.final_newline = not tail and not overlong
         if tail:
             yield tail.removeprefix(_BOM) if first else tail
+
+
+def _salvage(decoder: zlib._Decompress, block: bytes) -> Iterator[bytes]:
+    """Yield what a block holds before its damage: zlib drops it when it raises."""
+    try:
+        for at in range(len(block)):
+            yield decoder.decompress(block[at : at + 1])
+    except zlib.error:
+        return

@@ -120,7 +120,7 @@ def recognise(path: Path, asked: str | None) -> Recognised:
     for line in lines:
         if not kept and not line.strip():
             continue
-        if b"\0" in line:
+        if b"\0" in line and not any(marks):  # later zeros are a disk's, and a malformed line
             raise SourceError(f"{path}: is a binary file, not a laser log{_begins(kept, line)}")
         kept.append(line)
         size += len(line)

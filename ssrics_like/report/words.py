@@ -1,4 +1,4 @@
-"""Time for reading: a unit that suits a duration, a moment in words."""
+"""Numbers and perceptions for reading."""
 
 from __future__ import annotations
 
@@ -34,3 +34,25 @@ def time_text(t_s: float) -> str:
     minutes, seconds = divmod(whole, 60)
     hours, minutes = divmod(minutes, 60)
     return f"{sign}{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{sign}{minutes}:{seconds:02d}"
+
+
+def number_text(value: float, decimals: int) -> str:
+    """Return a number with a true minus sign, and no minus before zero."""
+    text = f"{value:.{decimals}f}"
+    if float(text) == 0:
+        text = text.removeprefix("-")
+    return text.replace("-", "−")
+
+
+def fraction_text(value: float, decimals: int = 4) -> str:
+    """Return a fraction as the report writes it: ``.75``."""
+    text = number_text(value, decimals)
+    if "." in text:
+        text = text.rstrip("0").rstrip(".")
+    sign = "−" if text.startswith("−") else ""
+    return f"{sign}{text.removeprefix(sign).removeprefix('0') or '0'}"
+
+
+def seen_text(sector: str, structure: str) -> str:
+    """Return what was perceived; nothing is said of a structure that was not recognised."""
+    return ", ".join(word for word in (sector, structure) if word not in ("", "unknown"))
