@@ -60,7 +60,7 @@ def test_the_drive_is_realistic_and_passes_doorways_twice(demo):
         across = (y > door_y) if kind == "-" else (x > door_x)
         near = np.hypot(x - door_x, y - door_y) < 1
         passages = np.count_nonzero(np.diff(across) & near[1:])
-        assert passages == (4 if name == "B" else 1 if name in ("BC", "C") else 2), name
+        assert passages == (3 if name == "B" else 1 if name in ("BC", "C") else 2), name
 
 
 def test_rays_are_exact(demo):

@@ -25,10 +25,9 @@ LOGS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "kind", "frame", "beams", "scans", "timed", "longest"), LOGS)
-def test_every_real_log_reads_as_described(
-    data_dir, name, kind, frame, beams, scans, timed, longest
-):
+@pytest.mark.parametrize("log", LOGS, ids=lambda log: log[0])
+def test_every_real_log_reads_as_described(data_dir, log):
+    name, kind, frame, beams, scans, timed, longest = log
     source = open_log(data_dir / "logs" / name, strict=True)
     assert (source.format, source.frame) == (kind, frame)
     seen = list(source)

@@ -54,7 +54,7 @@ def test_good_stamps_are_kept_to_the_digit(start, steps, look):
 
 
 @given(
-    back=st.lists(st.booleans(), min_size=30, max_size=200),
+    back=st.lists(st.booleans(), min_size=30, max_size=60),
     by=st.floats(0.06, 0.9),
 )
 def test_a_stamp_that_jitters_back_is_repaired_and_the_next_are_the_logs_own(back, by):
@@ -68,8 +68,8 @@ def test_a_stamp_that_jitters_back_is_repaired_and_the_next_are_the_logs_own(bac
 
 
 def test_a_repaired_time_follows_the_one_before_by_a_millisecond():
-    given_back, keeper = times([10.0, 10.6, 9.9, 10.6, math.nan, 5000.0, 11.2, 11.8])
-    expected = [10.0, 10.6, 10.601, 10.602, 10.603, 10.604, 11.2, 11.8]
+    given_back, keeper = times([10.0, 10.6, 9.9, 10.6, math.nan, 5000.0, 11.2, 11.8, 12.4, 13.0])
+    expected = [10.0, 10.6, 10.601, 10.602, 10.603, 10.604, 11.2, 11.8, 12.4, 13.0]
     assert given_back == pytest.approx(expected)
     assert keeper.repaired == 4
 
@@ -122,10 +122,10 @@ def test_after_a_reset_a_stamp_that_fits_as_it_stands_is_taken_at_its_word():
 
 
 def test_a_clock_that_stands_still_is_bridged_at_the_typical_step():
-    stamps = [0.1 * k for k in range(100)] + [9.9] * 120
+    stamps = [0.1 * k for k in range(150)] + [14.9] * 120
     given_back, keeper = times(stamps)
     assert keeper.resets == 0
-    assert given_back[-1] == pytest.approx(9.9 + 20 * CATCH_UP_STEP_S + 100 * 0.1)
+    assert given_back[-1] == pytest.approx(14.9 + 20 * CATCH_UP_STEP_S + 100 * 0.1)
 
 
 def test_a_first_stamp_that_nothing_follows_is_no_beginning():

@@ -8,9 +8,9 @@ from ssrics_like.report import style
 from ssrics_like.report.drawing import HALO, Drawing
 from ssrics_like.report.labels import spread
 from ssrics_like.report.records import Results
-from ssrics_like.report.words import clock, number_text
+from ssrics_like.report.words import clock, fraction_text
 
-SHOWN_MAX = 10
+SHOWN_MAX = len(style.HIGHLIGHTS)
 """Landmarks drawn in colour; the others are pale."""
 PALE_MAX = 300
 LEFT_PT, RIGHT_PT, TOP_PT, BOTTOM_PT = 42.0, 74.0, 10.0, 30.0
@@ -43,7 +43,7 @@ def draw_activation(results: Results) -> Drawing | None:
     axes.set_ylim(low, high)
     axes.axhline(threshold, color=style.ACCENT, linewidth=1.0, dashes=(5, 3), zorder=4)
     axes.annotate(
-        f"retrieval threshold {number_text(threshold, 2)}", (0, threshold), (4, 3), va="bottom", ha="left",
+        f"retrieval threshold {fraction_text(threshold)}", (0, threshold), (4, 3), va="bottom", ha="left",
         xycoords=("axes fraction", "data"), textcoords="offset points", color=style.ACCENT,
         fontsize=style.SMALL_PT, fontweight="bold", gid=f"{HALO}-threshold", zorder=6,
     )  # fmt: skip
@@ -53,9 +53,8 @@ def draw_activation(results: Results) -> Drawing | None:
     wanted = [(level - low) * per_unit for level in ends]
     placed = spread(wanted, LABEL_GAP_PT, 3.0, inner_pt - 3.0)
     for i, name in enumerate(coloured):
-        colour = style.HIGHLIGHTS[i % len(style.HIGHLIGHTS)]
-        dashes = (None, None) if i < len(style.HIGHLIGHTS) else (4, 1.5)
-        axes.plot(t, levels[name], color=colour, linewidth=1.15, dashes=dashes, zorder=3)
+        colour = style.HIGHLIGHTS[i]
+        axes.plot(t, levels[name], color=colour, linewidth=1.15, zorder=3)
         axes.annotate(
             f"{name} ({visits.get(name, 0)})", (1, ends[i]), (16, placed[i]),
             xycoords=("axes fraction", "data"), textcoords=_beside(axes), va="center_baseline",

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 HALO = "halo"
 """Prefix of the gid of text that gets a white rim, to be read on lines and walls."""
 
-_HALO_STYLE = "paint-order: stroke; stroke: #fff; stroke-width: 2.2px; stroke-linejoin: round"
+_HALO_STYLE = "paint-order: stroke; stroke: #fff; stroke-width: 2.6px; stroke-linejoin: round"
 _ROOT_STYLE = "stroke-linejoin: round; stroke-linecap: butt"
 _NUMBERS = re.compile(r'( (?:d|x|y)=")([^"]*)"')
 _METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from ssrics_like.report.style import INK, RULE, SMALL_PT
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+Place = TypeVar("Place", float, NDArray[np.float64])
 
 def round_length(wanted: float) -> float:
     """Return the largest of 1, 2, 5 times a power of ten that is at most `wanted`."""
@@ -49,8 +50,8 @@ class Frame:
         """Width on the page, points."""
         return (self.right - self.left) * self.points_per_m
 
-    def points(self, x_m: float, y_m: float) -> tuple[float, float]:
-        """Return where a place lies, in points from the lower left corner."""
+    def points(self, x_m: Place, y_m: Place) -> tuple[Place, Place]:
+        """Return where a place lies, or many, in points from the lower left corner."""
         return (x_m - self.left) * self.points_per_m, (y_m - self.bottom) * self.points_per_m
 
 
@@ -77,7 +78,7 @@ def frame_around(
     if len(x_m) == 0:
         x_m = y_m = np.zeros(1)
     middle_x, middle_y = (x_m.min() + x_m.max()) / 2, (y_m.min() + y_m.max()) / 2
-    span_x, span_y = (max(float(np.ptp(v)) * 1.05, least_m) for v in (x_m, y_m))
+    span_x, span_y = (max(float(np.ptp(v)) * 1.07, least_m) for v in (x_m, y_m))
     scale = min(width_pt / span_x, heights_pt[1] / span_y)
     height_pt = min(max(span_y * scale, heights_pt[0]), heights_pt[1])
     half_x, half_y = width_pt / scale / 2, height_pt / scale / 2

@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ssrics_like.memory.landmark import Arc
 from ssrics_like.report import style
 from ssrics_like.report.drawing import HALO, Drawing
@@ -79,6 +81,8 @@ def draw_graph(results: Results) -> Drawing | None:
     ways = ways_of(results.arcs)
     places = {mark.name: (mark.drawn_x_m, mark.drawn_y_m) for mark in run.landmarks}
     _draw_ways(axes, ways, places)
+    for way in ways:
+        room.cross(np.array([frame.points(*places[end]) for end in way.ends]))
     tips = draw_landmarks(axes, run.landmarks, frame, room)
     _draw_distances(axes, ways, places, frame, room)
     axes.set_xlabel(f"metres, {frame_text(results)}", loc="right", fontsize=style.SMALL_PT)

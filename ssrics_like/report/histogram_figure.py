@@ -67,6 +67,7 @@ def _bars(axes: Axes, histogram: Histogram, name: str, threshold: float) -> None
     axes.set_xticks([i - 0.5 for i in range(bins + 1)], labels)
     axes.set_xlabel("correlation of two scans")
     axes.set_ylabel("pairs of scans")
+    axes.yaxis.get_major_locator().set_params(integer=True)
     axes.grid(axis="y")
     verdict = "above" if histogram.tau > threshold else "not above"
     axes.annotate(

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 GLYPH_WIDTH = 0.65
 """Width of a digit or letter over the size of its font, a little on the wide side."""
+LINE_STEP_PT = 1.5
 
 
 class Room:
@@ -22,17 +25,31 @@ class Room:
     def __init__(self, width_pt: float, height_pt: float) -> None:
         self._size = width_pt, height_pt
         self._boxes: list[tuple[float, float, float, float]] = []
+        self._lines = np.empty((0, 2))
 
     def take(self, x: float, y: float, half_width: float, half_height: float) -> None:
         """Note that a box around a point is taken."""
         self._boxes.append((x - half_width, y - half_height, x + half_width, y + half_height))
 
+    def cross(self, points: NDArray[np.float64]) -> None:
+        """Note a line, shape (n, 2): labels may lie on it, but rather not."""
+        if len(points) < 2:  # noqa: PLR2004 - a point is no line
+            return
+        along = np.concatenate([[0.0], np.hypot(*np.diff(points, axis=0).T).cumsum()])
+        steps = np.arange(0.0, along[-1], LINE_STEP_PT)
+        dense = [np.interp(steps, along, points[:, axis]) for axis in (0, 1)]
+        self._lines = np.vstack([self._lines, np.column_stack(dense)])
+
     def find(
         self, candidates: Iterable[tuple[float, float]], half_width: float, half_height: float
     ) -> tuple[float, float] | None:
-        """Return, and take, the first candidate around which a box is free; None if none is."""
+        """Return, and take, the candidate whose box is free and lies least on lines.
+
+        Of equal ones the first; None if none is free.
+        """
         boxes = np.array(self._boxes, np.float64).reshape(-1, 4)
         width, height = self._size
+        best, fewest = None, math.inf
         for x, y in candidates:
             left, right = x - half_width, x + half_width
             low, high = y - half_height, y + half_height
@@ -42,10 +59,17 @@ class Room:
                 (boxes[:, 0] >= right) | (boxes[:, 2] <= left)
                 | (boxes[:, 1] >= high) | (boxes[:, 3] <= low)
             )  # fmt: skip
-            if clear.all():
-                self.take(x, y, half_width, half_height)
-                return x, y
-        return None
+            if not clear.all():
+                continue
+            off = np.abs(self._lines - (x, y))
+            crossed = int(((off[:, 0] < half_width) & (off[:, 1] < half_height)).sum())
+            if crossed < fewest:
+                best, fewest = (x, y), crossed
+            if fewest == 0:
+                break
+        if best is not None:
+            self.take(*best, half_width, half_height)
+        return best
 
 
 def around(x: float, y: float, gap: float, half_width: float, half_height: float) -> list[tuple[float, float]]:

@@ -23,7 +23,9 @@ HEIGHTS_PT = (230.0, 640.0)
 PATH_PARTS = 48
 TIPPED_MAX = 400
 """So many landmarks are drawn one by one, with a tip each; more are drawn in bulk."""
-WALLS_CUT = 0.003  # share of the outline's cells that may lie beyond each edge of the map
+WALLS_CUT = 0.001  # share of the outline's cells that may lie beyond each edge of the map
+OTHERS = ("recognised", "unsure", "dismissed", "overwritten")
+"""Decisions that make no new landmark."""
 CROWD = 60  # landmarks from which on markers are drawn smaller
 
 
@@ -47,13 +49,16 @@ def draw_map(results: Results) -> Drawing:
             handles=handles, loc="lower left", bbox_to_anchor=(0, 1, 1, 0), borderaxespad=0.7,
             ncols=len(handles), columnspacing=1.4, handlelength=1.0,
         )  # fmt: skip
+    rings = (
+        "; rings are reflexes at which one was recognised again" if run.decided["recognised"] else ""
+    )
     return Drawing(
         "map",
         figure,
         f"Map of the path with {len(run.landmarks)} landmarks over the walls seen by the laser",
         "Grey: where laser beams ended, drawn from the scans. The line is the robot's path, darker "
         "with time. Filled dots are landmarks where they were declared, coloured by the sector in "
-        "which the largest reading lay; rings are places where one was recognised again. Rest the "
+        f"which the largest reading lay{rings}. Rest the "
         "pointer on a landmark for its particulars; where it is crowded, some carry no number.",
         tips,
     )
@@ -116,6 +121,7 @@ def _ends(axes: Axes, path: NDArray[np.float64], frame: Frame) -> Room:
     room.take(60, 10, 60, 14)  # the scale bar
     if len(path) == 0:
         return room
+    room.cross(np.column_stack(frame.points(path[:, 1], path[:, 2])))
     start, end = path[0, 1:], path[-1, 1:]
     together = np.hypot(*(end - start)) * frame.points_per_m < 10  # noqa: PLR2004 - points
     ends = [(start, "start, end", "s")] if together else [(start, "start", "s"), (end, "end", "D")]
@@ -196,13 +202,7 @@ def describe(mark: Landmark) -> str:
 
 def _draw_reflexes(axes: Axes, reflexes: tuple[Reflex, ...], frame: Frame) -> None:
     """Draw what is no new landmark, thinned where marks would cover each other."""
-    looks: dict[str, dict[str, Any]] = {
-        "recognised": {"marker": "o", "markersize": 4.4, "markerfacecolor": "none"},
-        "unsure": {"marker": "^", "markersize": 4.2, "markerfacecolor": "none"},
-        "dismissed": {"marker": ".", "markersize": 2.4},
-        "overwritten": {"marker": "x", "markersize": 3.6},
-    }
-    for zorder, decision in enumerate(("dismissed", "overwritten", "unsure", "recognised"), 3):
+    for zorder, decision in enumerate(reversed(OTHERS), 3):
         chosen = [r for r in reflexes if r.decision == decision]
         for sector in sorted({r.sector for r in chosen}):
             here = [r for r in chosen if r.sector == sector]
@@ -210,10 +210,18 @@ def _draw_reflexes(axes: Axes, reflexes: tuple[Reflex, ...], frame: Frame) -> No
             keep = kept_apart(x, y, 1.2 / frame.points_per_m)
             hollow = decision in ("recognised", "unsure")
             colour = style.sector_colour(sector) if hollow else style.MUTED
-            axes.plot(
-                x[keep], y[keep], linestyle="none", color=colour, markeredgewidth=0.9,
-                zorder=zorder, **looks[decision],
-            )  # fmt: skip
+            axes.plot(x[keep], y[keep], zorder=zorder, **_look(decision, colour))
+
+
+def _look(decision: str, colour: str) -> dict[str, Any]:
+    """Return how a reflex is drawn that made no new landmark."""
+    looks: dict[str, dict[str, Any]] = {
+        "recognised": {"marker": "o", "markersize": 4.4, "markerfacecolor": "none"},
+        "unsure": {"marker": "^", "markersize": 4.2, "markerfacecolor": "none"},
+        "dismissed": {"marker": "o", "markersize": 2.8, "markeredgewidth": 0},
+        "overwritten": {"marker": "x", "markersize": 3.8},
+    }
+    return {"linestyle": "none", "color": colour, "markeredgewidth": 0.9, **looks[decision]}
 
 
 def _legend(run: Run) -> list[Any]:
@@ -228,17 +236,9 @@ def _legend(run: Run) -> list[Any]:
         handles.append(
             Line2D([], [], label=f"landmark, {sector} ({count})", **_filled(sector, 6.4))
         )
-    looks: dict[str, dict[str, Any]] = {
-        "recognised": {"marker": "o", "markerfacecolor": "none", "markersize": 4.8},
-        "unsure": {"marker": "^", "markerfacecolor": "none", "markersize": 4.6},
-        "dismissed": {"marker": ".", "markersize": 3.6},
-        "overwritten": {"marker": "x", "markersize": 4.2},
-    }
-    for decision, look in looks.items():
+    for decision in OTHERS:
         count = run.decided[decision]
         if count:
-            handles.append(
-                Line2D([], [], linestyle="none", color=style.MUTED, markeredgewidth=1.0,
-                       label=f"{decision} ({count})", **look)
-            )  # fmt: skip
+            look = _look(decision, style.MUTED)
+            handles.append(Line2D([], [], label=f"{decision} ({count})", **look))
     return handles

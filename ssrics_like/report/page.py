@@ -27,21 +27,21 @@ if TYPE_CHECKING:
 
 PAGE = "report.html"
 
-FIGURES: tuple[tuple[str, str, Callable[[Results], Drawing | None], str], ...] = (
-    ("map", "Map", draw_map, ""),
-    ("runs", "All runs", draw_runs, ""),
-    ("novelty", "Novelty over time", draw_novelty,
+FIGURES: tuple[tuple[str, str, str, Callable[[Results], Drawing | None], str], ...] = (
+    ("map", "Map", "Map", draw_map, ""),
+    ("runs", "Runs", "All runs", draw_runs, ""),
+    ("novelty", "Novelty", "Novelty over time", draw_novelty,
      "The run ended before the first interval was complete, so there is no novelty to show."),
-    ("histograms", "A novel and a bored interval", draw_histograms,
+    ("histograms", "Histograms", "A novel and a bored interval", draw_histograms,
      "The run ended before the first interval was complete, so there are no correlations to show."),
-    ("timeline", "Buffers and productions", draw_timeline,
+    ("timeline", "Timeline", "Buffers and productions", draw_timeline,
      "No reflex was decided in this run, so no buffer was used."),
-    ("activation", "Activation of landmarks", draw_activation,
+    ("activation", "Activation", "Activation of landmarks", draw_activation,
      "Declarative memory held no landmark in this run: none was declared, or the rule set keeps "
      "no memory."),
-    ("graph", "Topological memory", draw_graph, "No landmark was declared in this run."),
+    ("graph", "Graph", "Topological memory", draw_graph, "No landmark was declared in this run."),
 )  # fmt: skip
-"""Name, heading, how to draw it, and what to say where there is nothing to draw."""
+"""Name, short and full heading, how to draw it, and what to say where there is nothing to draw."""
 
 
 def write_report(folder: Path) -> Path:
@@ -71,7 +71,7 @@ def write_report(folder: Path) -> Path:
     sections = []
     try:
         (folder / "figures").mkdir(exist_ok=True)
-        for name, heading, draw, otherwise in FIGURES:
+        for name, short, heading, draw, otherwise in FIGURES:
             with style.context():
                 drawing = draw(results)
                 svg = as_svg(drawing) if drawing else ""
@@ -83,8 +83,8 @@ def write_report(folder: Path) -> Path:
             if drawing or otherwise:
                 caption = drawing.caption if drawing else ""
                 sections.append(
-                    {"name": name, "heading": heading, "svg": svg, "caption": caption,
-                     "otherwise": otherwise}
+                    {"name": name, "short": short, "heading": heading, "svg": svg,
+                     "caption": caption, "otherwise": otherwise}
                 )  # fmt: skip
         page = folder / PAGE
         write_atomically(page, _rendered(results, sections))

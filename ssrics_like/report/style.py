@@ -13,12 +13,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 # Colours that colour-blind readers can tell apart: Okabe & Ito (2008), "Color universal design".
-BLUE, ORANGE, GREEN = "#0072B2", "#E69F00", "#009E73"
-VERMILION, PURPLE, SKY = "#D55E00", "#CC79A7", "#56B4E9"
+BLUE, ORANGE, GREEN, VERMILION = "#0072B2", "#E69F00", "#009E73", "#D55E00"
 
 SECTORS = {"left": BLUE, "front": ORANGE, "right": GREEN}
-HIGHLIGHTS = (BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY, "#5b6470", "#8c6d1f")
-"""Colours of lines that are told apart by their labels too."""
+HIGHLIGHTS = (
+    "#332288", "#CC6677", "#44AA99", "#882255", "#999933",
+    "#AA4499", "#117733", "#4A9CC4", "#5B6470", "#8C6D1F",
+)  # fmt: skip
+"""Colours of lines, none of which is a sector's; after Tol (2021), "Colour schemes", muted."""
 
 INK = "#1f2933"
 MUTED = "#66727f"

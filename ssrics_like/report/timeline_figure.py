@@ -20,7 +20,7 @@ NAMES = {GOAL: "goal"}
 LEFT_PT, RIGHT_PT, TOP_PT, BOTTOM_PT = 66.0, 10.0, 26.0, 30.0
 LANE_PT, TITLE_PT = 17.0, 24.0
 MS = 1000.0
-SLACK_PT = 4.0
+SLACK_PT = 6.0
 """A label may be estimated this much wider than its bar: estimates are on the wide side."""
 
 _LOOKS: dict[str, dict[str, Any]] = {

@@ -45,6 +45,19 @@ def usable(stamps: Sequence[float]) -> bool:
     return len(forward_steps(stamps)) >= MIN_FORWARD_SHARE * (len(stamps) - 1)
 
 
+def _beginning(stamps: Sequence[float]) -> int:
+    """Return the index of the first stamp that one of the next twenty follows.
+
+    A first stamp that nothing follows is no beginning; the times before the
+    beginning are laid out backwards from it.
+    """
+    for index, stamp in enumerate(stamps):
+        following = stamps[index + 1 : index + 1 + RESET_RUN]
+        if any(0 < after - stamp <= MAX_STEP_S for after in following):
+            return index
+    return 0
+
+
 @dataclass
 class TimingSummary:
     """How the times of a log came about.
@@ -89,11 +102,7 @@ class Timekeeper:
         self._rate_hz = fallback_rate_hz
         steps = forward_steps(first_stamps)
         self._typical_s = median(steps) if steps else 1.0 / fallback_rate_hz
-        # A first stamp that nothing follows is no beginning: the times before the
-        # first plausible pair are laid out backwards from it.
-        self._lead = next(
-            (i for i in range(len(first_stamps) - 1) if forward_steps(first_stamps[i : i + 2])), 0
-        )
+        self._lead = _beginning(first_stamps)
         self._begin = first_stamps[self._lead] if self.usable else 0.0
         self._given = 0
         self._last = -math.inf
