@@ -193,7 +193,7 @@ def _standardise(
 
 
 @compiled
-def count_pairs(  # noqa: PLR0917  (numba passes arguments by position)
+def count_pairs(
     scans: NDArray[np.float64],
     rows: int,
     interval: int,
@@ -264,7 +264,7 @@ def _dot_float32(a: NDArray[np.float32], b: NDArray[np.float32]) -> np.float32:
 
 
 @compiled
-def push_scan(  # noqa: PLR0917  (numba passes arguments by position)
+def push_scan(
     scan: NDArray[np.float64],
     ring: NDArray[np.float64],
     unit: NDArray[np.float32],

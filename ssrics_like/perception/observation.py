@@ -34,8 +34,8 @@ class LaserScan:
     ----------
     ranges_m : ndarray, shape (beams,), float64
         Range of each beam in metres, in order of rising bearing (from the right
-        to the left). NaN marks a beam without any answer; a no-return value is
-        whatever the source wrote and is dealt with by conditioning.
+        to the left). Infinity marks a beam that met nothing, NaN one without any
+        answer; conditioning deals with both.
     angle_min_rad : float
         Bearing of the first beam; 0 is straight ahead, positive is left.
     angle_increment_rad : float

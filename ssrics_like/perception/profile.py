@@ -7,14 +7,14 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from ssrics_like.perception.conditioning import is_window
-from ssrics_like.perception.marking import Mark  # noqa: TC001  (pydantic reads it at run time)
+from ssrics_like.perception.marking import Mark
 from ssrics_like.perception.novelty import (
     REPORT_GRADIENT,
     REPORT_INTERVAL,
     REPORT_THRESHOLD,
     Advance,
 )
-from ssrics_like.perception.sectors import SectorRule  # noqa: TC001  (pydantic reads it at run time)
+from ssrics_like.perception.sectors import SectorRule
 
 Anchor = Literal["newest", "middle", "oldest"]
 Fraction = Annotated[float, Field(gt=0.0, lt=1.0)]

@@ -64,7 +64,7 @@ def cards(run: Run) -> list[dict[str, str]]:
     kinds = [k for k in DECISIONS if k != "unsure" or decided[k]]
     kinds += sorted(set(decided) - set(DECISIONS))
     found += [(kind, _grouped(decided[kind]), "") for kind in kinds]
-    found.append(("landmarks", _grouped(len(run.landmarks)), "in the graph at the end"))
+    found.append(("landmarks", _grouped(len(run.landmarks)), "in the graph"))
     rate = run.marks_per_100_m
     found.append(
         ("marks per 100 m", "–" if math.isnan(rate) else f"{rate:.1f}", "declared or recognised")
