@@ -20,6 +20,10 @@ class SourceError(SsricsError, ValueError):
     """A log cannot be read: missing, empty, foreign, or malformed at a line."""
 
 
+class ScanError(SsricsError, ValueError):
+    """A scan has the wrong shape, or another number of beams than the scans before it."""
+
+
 class SettingsError(SsricsError, ValueError):
     """A YAML file or an override is wrong; one line for each problem."""
 

@@ -49,7 +49,7 @@ def walk(scans, seed=0, beams=BEAMS):
 
 
 def profile(**settings):
-    return PerceptionProfile(**{"interval": 10, **settings})
+    return PerceptionProfile(**{"interval": 10, "gradient": 0.99, **settings})
 
 
 def run(buffer, rows):

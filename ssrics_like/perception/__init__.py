@@ -4,7 +4,7 @@ Everything here is pure: arrays and values in, values out. numba is imported
 only when the first kernel runs.
 """
 
-from ssrics_like.perception.checks import ScanError
+from ssrics_like.errors import ScanError
 from ssrics_like.perception.conditioning import ConditionedScan, condition
 from ssrics_like.perception.histogram import correlation_histogram
 from ssrics_like.perception.marking import (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssrics_like.errors import SettingsError, SsricsError, choices, nearest
+from ssrics_like.errors import ScanError, SettingsError, choices, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -22,18 +22,22 @@ ANCHORS = ("newest", "middle", "oldest")
 SECTOR_RULES = ("maximum", "robust")
 
 
-class ScanError(SsricsError, ValueError):
-    """A scan has the wrong shape, or another number of beams than the scans before it."""
-
-
 @cache
 def kernels() -> ModuleType:
-    """Return the compiled kernels, importing numba only now.
+    """Return the compiled kernels of the novelty algorithm, importing numba only now.
 
     Importing numba takes about half a second, which a command such as
     ``ssrics --help`` must not pay.
     """
     from ssrics_like.perception import kernels as module  # noqa: PLC0415  (see the docstring)
+
+    return module
+
+
+@cache
+def scan_kernels() -> ModuleType:
+    """Return the compiled kernels for single scans, importing numba only now."""
+    from ssrics_like.perception import scan_kernels as module  # noqa: PLC0415  (as above)
 
     return module
 

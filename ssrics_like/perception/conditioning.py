@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ssrics_like.errors import SettingsError
-from ssrics_like.perception.checks import kernels, require_ranges
+from ssrics_like.perception.checks import require_ranges, scan_kernels
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -75,7 +75,7 @@ def condition(ranges_m: ArrayLike, range_cap_m: float, repair_window: int) -> Co
         )
     ranges = require_ranges(ranges_m).copy()
     measured = np.empty(ranges.size, np.bool_)
-    kernels().condition_scan(ranges, measured, float(range_cap_m), repair_window)
+    scan_kernels().condition_scan(ranges, measured, float(range_cap_m), repair_window)
     return ConditionedScan(ranges, measured)
 
 

@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Literal, cast
 
 import numpy as np
 
+from ssrics_like.errors import ScanError
 from ssrics_like.perception.checks import (
     ADVANCES,
-    ScanError,
     kernels,
     require_choice,
     require_fraction,

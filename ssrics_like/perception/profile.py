@@ -9,8 +9,6 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator
 from ssrics_like.perception.conditioning import is_window
 from ssrics_like.perception.marking import Mark
 from ssrics_like.perception.novelty import (
-    REPORT_GRADIENT,
-    REPORT_INTERVAL,
     REPORT_THRESHOLD,
     Advance,
 )
@@ -61,12 +59,12 @@ class PerceptionProfile(BaseModel):
     source: str = ""
     range_cap_m: Annotated[float, Field(gt=0.0)] = 8.0
     repair_window: Annotated[int, Field(ge=0)] = 5
-    interval: Annotated[int, Field(ge=2)] = REPORT_INTERVAL
-    gradient: Fraction = REPORT_GRADIENT
+    interval: Annotated[int, Field(ge=2)] = 20
+    gradient: Fraction = 0.9
     threshold: Fraction = REPORT_THRESHOLD
     advance: Advance = "sliding"
     mark: Mark = "peak"
-    prominence: Fraction = 0.05
+    prominence: Fraction = 0.1
     anchor: Anchor = "middle"
     sector_rule: SectorRule = "robust"
     view_beams: Annotated[int, Field(ge=2)] = 36

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ssrics_like.perception.checks import ScanError
+from ssrics_like.errors import ScanError
 from ssrics_like.perception.conditioning import condition
 from ssrics_like.perception.marking import make_marker
 from ssrics_like.perception.novelty import NoveltyDetector, is_novel, scan_correlations

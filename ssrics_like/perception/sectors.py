@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from ssrics_like.errors import ScanError
 from ssrics_like.perception.checks import (
     SECTOR_RULES,
-    ScanError,
-    kernels,
     require_choice,
     require_ranges,
+    scan_kernels,
 )
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class SectorClassifier:
             step = (bearings[-1] - bearings[0]) / max(self.beams - 1, 1)
             wide = round(0.5 * ROBUST_WIDTH_RAD / step) if step > 0.0 else 0
             self._half = max(_ROBUST_HALF_BEAMS, wide)
-        self._widest = kernels().widest_sector
+        self._widest = scan_kernels().widest_sector
 
     def classify(self, ranges_m: NDArray[np.float64]) -> Sector:
         """Return the sector with the largest reading (or running median).

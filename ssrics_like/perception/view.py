@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssrics_like.errors import SettingsError
-from ssrics_like.perception.checks import kernels, require_ranges
+from ssrics_like.perception.checks import require_ranges, scan_kernels
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -37,7 +37,7 @@ def describe_view(ranges_m: ArrayLike, view_beams: int) -> NDArray[np.float32]:
     ndarray, shape (view_beams,), float32
     """
     view = np.empty(require_view_beams(view_beams), np.float32)
-    kernels().describe_view(require_ranges(ranges_m).copy(), view)
+    scan_kernels().describe_view(require_ranges(ranges_m).copy(), view)
     return view
 
 

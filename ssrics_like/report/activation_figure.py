@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ssrics_like.report import style
@@ -9,6 +11,11 @@ from ssrics_like.report.drawing import HALO, Drawing
 from ssrics_like.report.labels import spread
 from ssrics_like.report.records import Results
 from ssrics_like.report.words import clock, fraction_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.transforms import Transform
 
 SHOWN_MAX = len(style.HIGHLIGHTS)
 """Landmarks drawn in colour; the others are pale."""
@@ -43,7 +50,7 @@ def draw_activation(results: Results) -> Drawing | None:
     axes.set_ylim(low, high)
     axes.axhline(threshold, color=style.ACCENT, linewidth=1.0, dashes=(5, 3), zorder=4)
     axes.annotate(
-        f"retrieval threshold {fraction_text(threshold)}", (0, threshold), (4, 3), va="bottom", ha="left",
+        f"retrieval threshold {fraction_text(threshold)}", (0, threshold), (4, 3), va="bottom",
         xycoords=("axes fraction", "data"), textcoords="offset points", color=style.ACCENT,
         fontsize=style.SMALL_PT, fontweight="bold", gid=f"{HALO}-threshold", zorder=6,
     )  # fmt: skip
@@ -51,13 +58,14 @@ def draw_activation(results: Results) -> Drawing | None:
     per_unit = inner_pt / (high - low)
     ends = [float(levels[n][np.isfinite(levels[n])][-1]) for n in coloured]
     wanted = [(level - low) * per_unit for level in ends]
+    corner = _from_lower_right(axes, figure)
     placed = spread(wanted, LABEL_GAP_PT, 3.0, inner_pt - 3.0)
     for i, name in enumerate(coloured):
         colour = style.HIGHLIGHTS[i]
         axes.plot(t, levels[name], color=colour, linewidth=1.15, zorder=3)
         axes.annotate(
             f"{name} ({visits.get(name, 0)})", (1, ends[i]), (16, placed[i]),
-            xycoords=("axes fraction", "data"), textcoords=_beside(axes), va="center_baseline",
+            xycoords=("axes fraction", "data"), textcoords=corner, va="center_baseline",
             ha="left", color=colour, fontsize=style.SMALL_PT, fontweight="bold",
             arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "shrinkA": 1,
                         "shrinkB": 0, "relpos": (0, 0.5)},
@@ -78,13 +86,11 @@ def draw_activation(results: Results) -> Drawing | None:
     )
 
 
-def _beside(axes: object) -> object:
+def _from_lower_right(axes: Axes, figure: Figure) -> Transform:
     """Return coordinates in points from the lower right corner of the axes."""
     from matplotlib.transforms import Affine2D, ScaledTranslation
 
-    figure = axes.get_figure(root=True)  # type: ignore[attr-defined]
-    box = axes.get_position()  # type: ignore[attr-defined]
-    corner = ScaledTranslation(
-        box.x1 * style.WIDTH_IN, box.y0 * figure.get_size_inches()[1], figure.dpi_scale_trans
-    )
+    box = axes.get_position()
+    width_in, height_in = figure.get_size_inches()
+    corner = ScaledTranslation(box.x1 * width_in, box.y0 * height_in, figure.dpi_scale_trans)
     return Affine2D().scale(1 / style.POINTS) + figure.dpi_scale_trans + corner

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
 
-from ssrics_like.report.map_figure import TIPPED_MAX
+from ssrics_like.report.markers import TIPPED_MAX
 from ssrics_like.report.records import DECISIONS, Landmark, Results, Run
 from ssrics_like.report.style import decision_order
 from ssrics_like.report.words import number_text, time_text

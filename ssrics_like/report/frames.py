@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 Place = TypeVar("Place", float, NDArray[np.float64])
 
+
 def round_length(wanted: float) -> float:
     """Return the largest of 1, 2, 5 times a power of ten that is at most `wanted`."""
     power = 10.0 ** math.floor(math.log10(wanted))

@@ -14,13 +14,8 @@ from ssrics_like.report import style
 from ssrics_like.report.drawing import HALO, Drawing
 from ssrics_like.report.frames import Frame, show_frame
 from ssrics_like.report.labels import Room, text_half_size
-from ssrics_like.report.map_figure import (
-    HEIGHTS_PT,
-    MARGINS_PT,
-    draw_landmarks,
-    frame_text,
-    run_frame,
-)
+from ssrics_like.report.map_figure import HEIGHTS_PT, MARGINS_PT, frame_text, run_frame
+from ssrics_like.report.markers import draw_landmarks
 from ssrics_like.report.records import Results
 from ssrics_like.report.walls import draw_walls
 
@@ -109,11 +104,9 @@ def _draw_ways(axes: Axes, ways: list[Way], places: dict[str, tuple[float, float
 
     if not ways:
         return
-    most = ways[0].traversals
-    widths = [
-        THINNEST_PT + (THICKEST_PT - THINNEST_PT) * math.sqrt((way.traversals - 1) / max(most - 1, 1))
-        for way in ways
-    ]
+    most = max(ways[0].traversals - 1, 1)
+    range_pt = THICKEST_PT - THINNEST_PT
+    widths = [THINNEST_PT + range_pt * math.sqrt((way.traversals - 1) / most) for way in ways]
     lines = [[places[end] for end in way.ends] for way in ways]
     axes.add_collection(
         LineCollection(lines, colors="#5d7a99", linewidths=widths, alpha=0.6, capstyle="round",

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
-from ssrics_like.report.records import Histogram, Results
+from ssrics_like.report.pictures import Histogram
+from ssrics_like.report.records import Results
 from ssrics_like.report.words import fraction_text
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ def draw_histograms(results: Results) -> Drawing | None:
 
 
 def _bars(axes: Axes, histogram: Histogram, name: str, threshold: float) -> None:
+    from matplotlib.ticker import MaxNLocator
+
     counts, edges = histogram.counts, histogram.edges
     bins = len(counts)
     pairs = sum(counts)
@@ -67,16 +70,16 @@ def _bars(axes: Axes, histogram: Histogram, name: str, threshold: float) -> None
     axes.set_xticks([i - 0.5 for i in range(bins + 1)], labels)
     axes.set_xlabel("correlation of two scans")
     axes.set_ylabel("pairs of scans")
-    axes.yaxis.get_major_locator().set_params(integer=True)
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     axes.grid(axis="y")
     verdict = "above" if histogram.tau > threshold else "not above"
     axes.annotate(
-        f"{name.capitalize()} interval, τ = {fraction_text(histogram.tau, 3)}", (0, 1), (0, 20), xycoords="axes fraction",
-        textcoords="offset points", fontsize=style.FONT_PT + 1, fontweight="bold",
+        f"{name.capitalize()} interval, τ = {fraction_text(histogram.tau, 3)}", (0, 1), (0, 20),
+        xycoords="axes fraction", textcoords="offset points", fontsize=style.FONT_PT + 1, fontweight="bold",
     )  # fmt: skip
     axes.annotate(
-        f"{counts[-1]} of {pairs} pairs are boring: {verdict} the threshold {fraction_text(threshold)}; "
-        f"ends at scan {histogram.scan}",
+        f"{counts[-1]} of {pairs} pairs are boring: {verdict} the threshold "
+        f"{fraction_text(threshold)}; ends at scan {histogram.scan}",
         (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points",
         fontsize=style.SMALL_PT + 0.5, color=style.MUTED,
     )  # fmt: skip

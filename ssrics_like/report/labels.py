@@ -72,7 +72,9 @@ class Room:
         return best
 
 
-def around(x: float, y: float, gap: float, half_width: float, half_height: float) -> list[tuple[float, float]]:
+def around(
+    x: float, y: float, gap: float, half_width: float, half_height: float
+) -> list[tuple[float, float]]:
     """Return centres of eight boxes beside a point, the right one first."""
     dx, dy = gap + half_width, gap + half_height
     near = 0.75 * gap + half_width

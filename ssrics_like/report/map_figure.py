@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ssrics_like.report import style
-from ssrics_like.report.drawing import HALO, Drawing
+from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.frames import Frame, frame_around, kept_apart, show_frame
 from ssrics_like.report.labels import Room, around, text_half_size
-from ssrics_like.report.records import Landmark, Reflex, Results, Run
-from ssrics_like.report.words import seen_text, time_text
+from ssrics_like.report.markers import SIZE_PT, draw_label, draw_landmarks, filled
+from ssrics_like.report.records import Reflex, Results, Run
 from ssrics_like.report.walls import draw_walls
 
 if TYPE_CHECKING:
@@ -21,12 +22,9 @@ if TYPE_CHECKING:
 MARGINS_PT = (26.0, 6.0, 28.0, 24.0)  # left, right, bottom, top
 HEIGHTS_PT = (230.0, 640.0)
 PATH_PARTS = 48
-TIPPED_MAX = 400
-"""So many landmarks are drawn one by one, with a tip each; more are drawn in bulk."""
 WALLS_CUT = 0.001  # share of the outline's cells that may lie beyond each edge of the map
 OTHERS = ("recognised", "unsure", "dismissed", "overwritten")
 """Decisions that make no new landmark."""
-CROWD = 60  # landmarks from which on markers are drawn smaller
 
 
 def draw_map(results: Results) -> Drawing:
@@ -50,7 +48,9 @@ def draw_map(results: Results) -> Drawing:
             ncols=len(handles), columnspacing=1.4, handlelength=1.0,
         )  # fmt: skip
     rings = (
-        "; rings are reflexes at which one was recognised again" if run.decided["recognised"] else ""
+        "; rings are reflexes at which one was recognised again"
+        if run.decided["recognised"]
+        else ""
     )
     return Drawing(
         "map",
@@ -94,7 +94,7 @@ def draw_path(
         return
     colours = LinearSegmentedColormap.from_list("time", [style.PATH_FROM, style.PATH_TO])
     cuts = np.unique(np.linspace(0, len(points) - 1, parts + 1).astype(np.int64))
-    lines = [points[a : b + 1] for a, b in zip(cuts[:-1], cuts[1:], strict=True)]
+    lines = [points[a : b + 1] for a, b in itertools.pairwise(cuts)]
     shades = colours(np.linspace(0, 1, len(lines)))
     axes.add_collection(
         LineCollection(lines, colors=shades, linewidths=width, capstyle="round", zorder=2),
@@ -135,69 +135,8 @@ def _ends(axes: Axes, path: NDArray[np.float64], frame: Frame) -> Room:
         half = text_half_size(text, style.SMALL_PT)
         place = room.find(around(px, py, 5.0, *half), *half)
         if place is not None:
-            _label(axes, (x, y), (px, py), place, text, weight="bold")
+            draw_label(axes, (x, y), (px, py), place, text, weight="bold")
     return room
-
-
-def _label(
-    axes: Axes,
-    at_m: tuple[float, float],
-    at_pt: tuple[float, float],
-    place_pt: tuple[float, float],
-    text: str,
-    *,
-    weight: str = "normal",
-    size: float = style.SMALL_PT,
-) -> None:
-    axes.annotate(
-        text, at_m, (place_pt[0] - at_pt[0], place_pt[1] - at_pt[1]), textcoords="offset points",
-        ha="center", va="center_baseline", fontsize=size, fontweight=weight, zorder=12,
-        gid=f"{HALO}-{text}",
-    )  # fmt: skip
-
-
-def draw_landmarks(
-    axes: Axes, landmarks: tuple[Landmark, ...], frame: Frame, room: Room, labels_max: int = 150
-) -> dict[str, str]:
-    """Draw landmarks with their names where there is room; return tips by gid."""
-    size = 6.4 if len(landmarks) <= CROWD else 5.0
-    if len(landmarks) > TIPPED_MAX:
-        size = 3.4
-        for sector in sorted({mark.sector for mark in landmarks}):
-            places = [(m.drawn_x_m, m.drawn_y_m) for m in landmarks if m.sector == sector]
-            axes.plot(*zip(*places, strict=True), zorder=8, **_filled(sector, size))
-    tips = {}
-    for i, mark in enumerate(landmarks[: TIPPED_MAX if len(landmarks) <= TIPPED_MAX else 0]):
-        gid = f"lm{i}"
-        axes.plot(mark.drawn_x_m, mark.drawn_y_m, gid=gid, zorder=8, **_filled(mark.sector, size))
-        tips[gid] = describe(mark)
-    for mark in landmarks:
-        room.take(*frame.points(mark.drawn_x_m, mark.drawn_y_m), size / 2, size / 2)
-    order = sorted(range(len(landmarks)), key=lambda i: (-landmarks[i].visits, i))
-    for i in order[:labels_max]:
-        mark = landmarks[i]
-        at = frame.points(mark.drawn_x_m, mark.drawn_y_m)
-        half = text_half_size(mark.name, style.SMALL_PT)
-        place = room.find(around(*at, size / 2 + 0.5, *half), *half)
-        if place is not None:
-            _label(axes, (mark.drawn_x_m, mark.drawn_y_m), at, place, mark.name)
-    return tips
-
-
-def _filled(sector: str, size: float) -> dict[str, Any]:
-    return {
-        "marker": "o", "linestyle": "none", "markersize": size, "markeredgecolor": "white",
-        "markeredgewidth": 0.7, "markerfacecolor": style.sector_colour(sector),
-    }  # fmt: skip
-
-
-def describe(mark: Landmark) -> str:
-    """Return a landmark's particulars in one line."""
-    seen = seen_text(mark.sector, mark.structure)
-    return (
-        f"{mark.name}: {seen}; declared at {time_text(mark.t_s)}, novelty {mark.salience:.2f}; "
-        f"visits: {mark.visits}"
-    )
 
 
 def _draw_reflexes(axes: Axes, reflexes: tuple[Reflex, ...], frame: Frame) -> None:
@@ -234,7 +173,7 @@ def _legend(run: Run) -> list[Any]:
     for sector in known + others:
         count = sum(mark.sector == sector for mark in run.landmarks)
         handles.append(
-            Line2D([], [], label=f"landmark, {sector} ({count})", **_filled(sector, 6.4))
+            Line2D([], [], label=f"landmark, {sector} ({count})", **filled(sector, SIZE_PT))
         )
     for decision in OTHERS:
         count = run.decided[decision]

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
-from ssrics_like.report.records import Novelty, Results
+from ssrics_like.report.pictures import Novelty
+from ssrics_like.report.records import Results
 from ssrics_like.report.words import clock, fraction_text
 
 BINS_MAX = 1000  # about as many as the figure has pixels
@@ -30,9 +31,7 @@ def draw_novelty(results: Results) -> Drawing | None:
     figure = style.new_figure((TOP_PT + CURVE_PT + gap + lanes_pt + BOTTOM_PT) / style.POINTS)
     axes = style.place_axes(figure, LEFT_PT, RIGHT_PT, BOTTOM_PT + lanes_pt + gap, TOP_PT)
     t = novelty.t_s / unit.seconds
-    axes.fill_between(
-        t, novelty.least, novelty.largest, color=style.BLUE, alpha=0.22, linewidth=0
-    )
+    axes.fill_between(t, novelty.least, novelty.largest, color=style.BLUE, alpha=0.22, linewidth=0)
     axes.plot(t, novelty.mean, color=style.BLUE, linewidth=0.9)
     axes.axhline(threshold, color=style.ACCENT, linewidth=1.0, dashes=(5, 3))
     end = max(run.duration_s, float(novelty.t_s[-1])) / unit.seconds or 1.0
@@ -72,8 +71,8 @@ def draw_novelty(results: Results) -> Drawing | None:
         f"Novelty (1 minus the boredom quotient τ) of each interval of {interval} scans: the line "
         "is the mean, the band reaches from the least to the largest where several intervals share "
         "a pixel. An interval is novel where it reaches the dashed line (τ at most "
-        f"{fraction_text(1.0 - threshold)}). Each tick below is a reflex, at the moment perceived, in "
-        "the row of what was decided about it.",
+        f"{fraction_text(1.0 - threshold)}). Each tick below is a reflex, at the moment perceived, "
+        "in the row of what was decided about it.",
     )
 
 

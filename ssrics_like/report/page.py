@@ -37,8 +37,8 @@ FIGURES: tuple[tuple[str, str, str, Callable[[Results], Drawing | None], str], .
     ("timeline", "Timeline", "Buffers and productions", draw_timeline,
      "No reflex was decided in this run, so no buffer was used."),
     ("activation", "Activation", "Activation of landmarks", draw_activation,
-     "Declarative memory held no landmark in this run: none was declared, or the rule set keeps "
-     "no memory."),
+     ("Declarative memory held no landmark in this run: none was declared, or the rule set keeps "
+      "no memory.")),
     ("graph", "Graph", "Topological memory", draw_graph, "No landmark was declared in this run."),
 )  # fmt: skip
 """Name, short and full heading, how to draw it, and what to say where there is nothing to draw."""
@@ -68,29 +68,42 @@ def write_report(folder: Path) -> Path:
     """
     folder = Path(folder)
     results = read_results(folder)
-    sections = []
+    with style.context():
+        sections = [_section(results, *figure) for figure in FIGURES]
+    page = folder / PAGE
+    html = _rendered(results, [s for s in sections if s["svg"] or s["otherwise"]])
     try:
         (folder / "figures").mkdir(exist_ok=True)
-        for name, short, heading, draw, otherwise in FIGURES:
-            with style.context():
-                drawing = draw(results)
-                svg = as_svg(drawing) if drawing else ""
-            file = folder / "figures" / f"{name}.svg"
-            if drawing:
-                write_atomically(file, svg)
+        for section in sections:
+            file = folder / "figures" / f"{section['name']}.svg"
+            if section["svg"]:
+                write_atomically(file, section["svg"])
             else:
                 file.unlink(missing_ok=True)  # of an earlier report
-            if drawing or otherwise:
-                caption = drawing.caption if drawing else ""
-                sections.append(
-                    {"name": name, "short": short, "heading": heading, "svg": svg,
-                     "caption": caption, "otherwise": otherwise}
-                )  # fmt: skip
-        page = folder / PAGE
-        write_atomically(page, _rendered(results, sections))
+        write_atomically(page, html)
     except OSError as e:
         raise ResultsError(f"{e.filename or folder}: cannot be written ({e.strerror})") from None
     return page
+
+
+def _section(
+    results: Results,
+    name: str,
+    short: str,
+    heading: str,
+    draw: Callable[[Results], Drawing | None],
+    otherwise: str,
+) -> dict[str, str]:
+    """Draw a figure; return it with what stands around it."""
+    drawing = draw(results)
+    return {
+        "name": name,
+        "short": short,
+        "heading": heading,
+        "svg": as_svg(drawing) if drawing else "",
+        "caption": drawing.caption if drawing else "",
+        "otherwise": otherwise,
+    }
 
 
 def _rendered(results: Results, sections: list[dict[str, str]]) -> str:

@@ -15,17 +15,8 @@ from numpy.typing import NDArray
 
 from ssrics_like.errors import ResultsError
 from ssrics_like.memory.store import load_topology
-from ssrics_like.report.records import (
-    Activation,
-    Histogram,
-    Landmark,
-    Novelty,
-    Outline,
-    Pictures,
-    Reflex,
-    Results,
-    Run,
-)
+from ssrics_like.report.pictures import Activation, Histogram, Novelty, Outline, Pictures
+from ssrics_like.report.records import Landmark, Reflex, Results, Run
 from ssrics_like.scenarios.folder import read_manifest
 
 Row = dict[str, str]

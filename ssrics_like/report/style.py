@@ -42,7 +42,7 @@ MEASURED_FONT = "DejaVu Sans"
 SHOWN_FONTS = "system-ui, 'Segoe UI', Roboto, Helvetica, Arial, sans-serif"
 """What a browser shows instead; all are narrower, so that nothing runs over."""
 
-_PARAMETERS: dict[str, Any] = {
+_PARAMETERS: dict[Any, Any] = {
     "axes.axisbelow": True,
     "axes.edgecolor": PALE,
     "axes.labelcolor": MUTED,
@@ -100,9 +100,7 @@ def new_figure(height_in: float) -> Figure:
     return Figure(figsize=(WIDTH_IN, height_in))
 
 
-def place_axes(
-    figure: Figure, left: float, right: float, bottom: float, top: float
-) -> Axes:
+def place_axes(figure: Figure, left: float, right: float, bottom: float, top: float) -> Axes:
     """Add axes inside margins given in points."""
     width, height = figure.get_size_inches() * POINTS
     return figure.add_axes(

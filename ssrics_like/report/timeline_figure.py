@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ssrics_like.report import style
-from ssrics_like.report.drawing import HALO, Drawing
+from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.episodes import BEFORE_S, Episode, read_episodes
 from ssrics_like.report.labels import text_half_size
 from ssrics_like.report.records import Results
@@ -115,8 +115,8 @@ def _bar(axes: Axes, span: Span, times_ms: tuple[float, float, float], lane: int
     points_per_ms = (style.WIDTH_IN * style.POINTS - LEFT_PT - RIGHT_PT) / (high - low)
     inside_pt, beside_pt = (end - start) * points_per_ms, (free - end) * points_per_ms
     place: dict[str, Any] = {"va": "center_baseline", "zorder": 5}
-    if span.kind == BUSY or span.kind == FAILED:
-        place["gid"] = f"{HALO}-{lane}-{start:.0f}"
+    if span.kind in (BUSY, FAILED):
+        place["bbox"] = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
     for size in (style.SMALL_PT, style.TINY_PT):
         needed_pt = 2 * text_half_size(text, size)[0]
         if needed_pt <= inside_pt + SLACK_PT:
@@ -138,7 +138,9 @@ def _legend(figure: Any, kinds: set[str], height_pt: float) -> None:
         FIRED: "production, from selection to firing", STOPPED: "production stopped",
     }  # fmt: skip
     handles = [
-        Patch(label=text, linewidth=0.8, **_LOOKS[kind]) for kind, text in names.items() if kind in kinds
+        Patch(label=text, linewidth=0.8, **_LOOKS[kind])
+        for kind, text in names.items()
+        if kind in kinds
     ]
     figure.legend(
         handles=handles, loc="upper left", ncols=len(handles), columnspacing=1.6,

@@ -8,17 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssrics_like.report.frames import Frame
-from ssrics_like.report.records import Outline
+from ssrics_like.report.pictures import Outline
 from ssrics_like.report.style import WALL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+Extent = tuple[float, float, float, float]
+
 SIDE_MAX = 1800
 """Most pixels along a side of the image; what is finer is joined."""
 
 
-def raster(outline: Outline, frame: Frame) -> tuple[NDArray[np.float64], tuple[float, ...]]:
+def raster(outline: Outline, frame: Frame) -> tuple[NDArray[np.float64], Extent]:
     """Draw the cells inside a frame into a grid.
 
     Parameters
@@ -81,6 +83,6 @@ def draw_walls(
     image[..., 3] = np.round(share * 255 * strength)
     times = max(1, side_px // max(share.shape))
     image = image.repeat(times, axis=0).repeat(times, axis=1)
-    axes.imshow(image, extent=extent, origin="lower", interpolation="none", zorder=0)  # type: ignore[arg-type]
+    axes.imshow(image, extent=extent, origin="lower", interpolation="none", zorder=0)
     axes.set_xlim(frame.left, frame.right)
     axes.set_ylim(frame.bottom, frame.top)

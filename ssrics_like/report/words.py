@@ -7,6 +7,7 @@ from dataclasses import dataclass
 MINUTE_S = 60.0
 HOUR_S = 3600.0
 
+
 @dataclass(frozen=True)
 class Clock:
     """A unit of time that suits a duration."""
@@ -33,7 +34,9 @@ def time_text(t_s: float) -> str:
     sign, whole = ("-" if t_s < 0 else ""), round(abs(t_s))
     minutes, seconds = divmod(whole, 60)
     hours, minutes = divmod(minutes, 60)
-    return f"{sign}{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{sign}{minutes}:{seconds:02d}"
+    if hours:
+        return f"{sign}{hours}:{minutes:02d}:{seconds:02d}"
+    return f"{sign}{minutes}:{seconds:02d}"
 
 
 def number_text(value: float, decimals: int) -> str:
