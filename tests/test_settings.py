@@ -59,8 +59,7 @@ def test_all_errors_come_at_once_with_line_and_column_in_order(tmp_path):
         ":1:1: unknown key 'titel'; did you mean 'title'?",
         ":2:1: runs: 'many' where a valid integer was expected",
         ":4:3: inner.decay: -1: expected greater than 0",
-        ":5:3: inner.rule: 'robst' where 'robust' or 'maximum' was expected; "
-        "did you mean 'robust'?",
+        ":5:3: inner.rule: 'robst' where 'robust' or 'maximum' was expected; did you mean 'robust'?",
         ":6:1: key 'runs' stands twice (first in line 2)",
         ":8:3: unknown key 'optional.deca'; did you mean 'decay'?",
     ]

@@ -29,7 +29,7 @@ app = App(
     version=ssrics_like.__version__,
     version_flags=["--version"],
     result_action="return_value",
-    default_parameter=None,
+    suppress_keyboard_interrupt=False,
 )
 app.command(replay.replay)
 app.command(run.run)

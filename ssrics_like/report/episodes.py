@@ -104,17 +104,18 @@ def read_episodes(folder: Path, run: Run, rules: Mapping[str, str]) -> list[Epis
 def _events(file: Path, last_s: float) -> Iterator[dict[str, Any]]:
     """Yield the events up to a time, without the long lists of candidates."""
     try:
-        with file.open(encoding="utf-8") as lines:
-            for number, line in enumerate(lines, 1):
-                if '"candidates"' in line:
-                    continue
-                try:
-                    event = json.loads(line)
-                    t_s = float(event["t_s"])
-                except (KeyError, TypeError, ValueError) as e:
-                    raise ResultsError(f"{file}:{number}: is damaged: {e!r}") from None
-                if t_s > last_s:
-                    return
-                yield event
+        lines = file.open(encoding="utf-8")
     except OSError as e:
         raise ResultsError(f"{file}: cannot be read ({e.strerror})") from None
+    with lines:
+        for number, line in enumerate(lines, 1):
+            if '"candidates"' in line:
+                continue
+            try:
+                event = json.loads(line)
+                t_s = float(event["t_s"])
+            except (KeyError, TypeError, ValueError) as e:
+                raise ResultsError(f"{file}:{number}: is damaged: {e!r}") from None
+            if t_s > last_s:
+                return
+            yield event

@@ -14,6 +14,9 @@ from ssrics_like.report.style import INK, RULE, SMALL_PT
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+MARGIN = 0.07
+"""Share of a map's span that is left free around it."""
+
 Place = TypeVar("Place", float, NDArray[np.float64])
 
 
@@ -57,8 +60,7 @@ class Frame:
 
 
 def frame_around(
-    x_m: NDArray[np.float64],
-    y_m: NDArray[np.float64],
+    places: NDArray[np.float64],
     width_pt: float,
     heights_pt: tuple[float, float],
     least_m: float = 4.0,
@@ -67,8 +69,8 @@ def frame_around(
 
     Parameters
     ----------
-    x_m, y_m : ndarray, shape (n,)
-        Places; none give a box around the origin.
+    places : ndarray, shape (n, 2)
+        x and y, metres; none give a box around the origin.
     width_pt : float
         Width of the box, points.
     heights_pt : tuple of float
@@ -76,10 +78,11 @@ def frame_around(
     least_m : float
         Never show less than this.
     """
-    if len(x_m) == 0:
-        x_m = y_m = np.zeros(1)
-    middle_x, middle_y = (x_m.min() + x_m.max()) / 2, (y_m.min() + y_m.max()) / 2
-    span_x, span_y = (max(float(np.ptp(v)) * 1.07, least_m) for v in (x_m, y_m))
+    if len(places) == 0:
+        places = np.zeros((1, 2))
+    low, high = places.min(axis=0), places.max(axis=0)
+    middle_x, middle_y = (low + high) / 2
+    span_x, span_y = np.maximum((high - low) * (1 + MARGIN), least_m)
     scale = min(width_pt / span_x, heights_pt[1] / span_y)
     height_pt = min(max(span_y * scale, heights_pt[0]), heights_pt[1])
     half_x, half_y = width_pt / scale / 2, height_pt / scale / 2

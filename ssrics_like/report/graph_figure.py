@@ -12,9 +12,9 @@ import numpy as np
 from ssrics_like.memory.landmark import Arc
 from ssrics_like.report import style
 from ssrics_like.report.drawing import HALO, Drawing
-from ssrics_like.report.frames import Frame, show_frame
+from ssrics_like.report.frames import Frame, frame_around, show_frame
 from ssrics_like.report.labels import Room, text_half_size
-from ssrics_like.report.map_figure import HEIGHTS_PT, MARGINS_PT, frame_text, run_frame
+from ssrics_like.report.map_figure import HEIGHTS_PT, MARGINS_PT, extent_of, frame_text
 from ssrics_like.report.markers import draw_landmarks
 from ssrics_like.report.records import Results
 from ssrics_like.report.walls import draw_walls
@@ -66,7 +66,8 @@ def draw_graph(results: Results) -> Drawing | None:
         return None
     left, right, bottom, _ = MARGINS_PT
     top = 6.0
-    frame = run_frame(results, style.WIDTH_IN * style.POINTS - left - right, HEIGHTS_PT)
+    width_pt = style.WIDTH_IN * style.POINTS - left - right
+    frame = frame_around(extent_of(run, results.pictures.outline), width_pt, HEIGHTS_PT)
     figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
     axes = style.place_axes(figure, left, right, bottom, top)
     draw_walls(axes, results.pictures.outline, frame, strength=0.45)

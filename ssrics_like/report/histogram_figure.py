@@ -75,7 +75,8 @@ def _bars(axes: Axes, histogram: Histogram, name: str, threshold: float) -> None
     verdict = "above" if histogram.tau > threshold else "not above"
     axes.annotate(
         f"{name.capitalize()} interval, τ = {fraction_text(histogram.tau, 3)}", (0, 1), (0, 20),
-        xycoords="axes fraction", textcoords="offset points", fontsize=style.FONT_PT + 1, fontweight="bold",
+        xycoords="axes fraction", textcoords="offset points", fontsize=style.FONT_PT + 1,
+        fontweight="bold",
     )  # fmt: skip
     axes.annotate(
         f"{counts[-1]} of {pairs} pairs are boring: {verdict} the threshold "

@@ -37,8 +37,10 @@ class Room:
             return
         along = np.concatenate([[0.0], np.hypot(*np.diff(points, axis=0).T).cumsum()])
         steps = np.arange(0.0, along[-1], LINE_STEP_PT)
-        dense = [np.interp(steps, along, points[:, axis]) for axis in (0, 1)]
-        self._lines = np.vstack([self._lines, np.column_stack(dense)])
+        dense = np.column_stack([np.interp(steps, along, points[:, axis]) for axis in (0, 1)])
+        # A way gone a hundred times is still one line to a label.
+        cells = np.unique(np.round(dense / LINE_STEP_PT), axis=0) * LINE_STEP_PT
+        self._lines = np.unique(np.vstack([self._lines, cells]), axis=0)
 
     def find(
         self, candidates: Iterable[tuple[float, float]], half_width: float, half_height: float

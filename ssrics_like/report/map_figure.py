@@ -13,6 +13,7 @@ from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.frames import Frame, frame_around, kept_apart, show_frame
 from ssrics_like.report.labels import Room, around, text_half_size
 from ssrics_like.report.markers import SIZE_PT, draw_label, draw_landmarks, filled
+from ssrics_like.report.pictures import Outline
 from ssrics_like.report.records import Reflex, Results, Run
 from ssrics_like.report.walls import draw_walls
 
@@ -31,7 +32,8 @@ def draw_map(results: Results) -> Drawing:
     """Draw the map of the run that is shown."""
     run = results.shown
     left, right, bottom, top = MARGINS_PT
-    frame = run_frame(results, style.WIDTH_IN * style.POINTS - left - right, HEIGHTS_PT)
+    width_pt = style.WIDTH_IN * style.POINTS - left - right
+    frame = frame_around(extent_of(run, results.pictures.outline), width_pt, HEIGHTS_PT)
     figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
     axes = style.place_axes(figure, left, right, bottom, top)
     draw_walls(axes, results.pictures.outline, frame)
@@ -64,17 +66,14 @@ def draw_map(results: Results) -> Drawing:
     )
 
 
-def run_frame(results: Results, width_pt: float, heights_pt: tuple[float, float]) -> Frame:
-    """Return the part of the plane that holds the shown run's path, landmarks and walls."""
-    run, outline = results.shown, results.pictures.outline
-    x = np.concatenate([run.path[:, 1], [mark.drawn_x_m for mark in run.landmarks]])
-    y = np.concatenate([run.path[:, 2], [mark.drawn_y_m for mark in run.landmarks]])
+def extent_of(run: Run, outline: Outline) -> NDArray[np.float64]:
+    """Return places, shape (n, 2), that bound a run's path, landmarks and walls."""
+    places = [run.path[:, 1:], *([(m.drawn_x_m, m.drawn_y_m)] for m in run.landmarks)]
     if len(outline.x):
         # Stray beams, through a door or window, may end outside.
-        bounds = [WALLS_CUT, 1 - WALLS_CUT]
-        x = np.append(x, np.quantile(outline.x, bounds) * outline.cell_m)
-        y = np.append(y, np.quantile(outline.y, bounds) * outline.cell_m)
-    return frame_around(x, y, width_pt, heights_pt)
+        cells = np.column_stack([outline.x, outline.y]) * outline.cell_m
+        places.append(np.quantile(cells, [WALLS_CUT, 1 - WALLS_CUT], axis=0))
+    return np.concatenate(places)
 
 
 def frame_text(results: Results) -> str:

@@ -19,7 +19,7 @@ CROWD = 60
 """More landmarks than this are drawn smaller."""
 TIPPED_MAX = 400
 """So many landmarks are drawn one by one, with a tip each; more are drawn in bulk."""
-LABELS_MAX = 150
+LABELS_MAX = 600
 
 
 def draw_label(

@@ -9,7 +9,7 @@ import numpy as np
 from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.frames import frame_around
-from ssrics_like.report.map_figure import draw_path
+from ssrics_like.report.map_figure import draw_path, extent_of
 from ssrics_like.report.reading import read_pictures
 from ssrics_like.report.records import Results
 from ssrics_like.report.walls import draw_walls
@@ -28,8 +28,9 @@ def draw_runs(results: Results) -> Drawing | None:
     rows = math.ceil(len(runs) / COLUMNS_MAX)
     columns = math.ceil(len(runs) / rows)
     width_pt = (style.WIDTH_IN * style.POINTS - 2 - (columns - 1) * GAP_PT) / columns
-    everywhere = np.concatenate([run.path[:, 1:] for run in runs])
-    frame = frame_around(everywhere[:, 0], everywhere[:, 1], width_pt, HEIGHTS_PT)
+    outlines = [read_pictures(results.folder, run).outline for run in runs]
+    everywhere = [extent_of(run, outline) for run, outline in zip(runs, outlines, strict=True)]
+    frame = frame_around(np.concatenate(everywhere), width_pt, HEIGHTS_PT)
     height_pt = rows * (frame.height_pt + TITLE_PT) + (rows - 1) * GAP_PT + 2
     figure = style.new_figure(height_pt / style.POINTS)
     for i, run in enumerate(runs):
@@ -40,8 +41,7 @@ def draw_runs(results: Results) -> Drawing | None:
             figure, left, style.WIDTH_IN * style.POINTS - left - width_pt,
             height_pt - top - frame.height_pt, top,
         )  # fmt: skip
-        outline = read_pictures(results.folder, run).outline
-        draw_walls(axes, outline, frame, strength=0.6, side_px=500)
+        draw_walls(axes, outlines[i], frame, strength=0.6, side_px=500)
         axes.set_xlim(frame.left, frame.right)
         axes.set_ylim(frame.bottom, frame.top)
         draw_path(axes, run.path, frame, width=0.7, parts=12)
@@ -64,11 +64,11 @@ def draw_runs(results: Results) -> Drawing | None:
             f"landmarks: {len(run.landmarks)}", (1, 1), (-1, 4), xycoords="axes fraction",
             textcoords="offset points", fontsize=style.SMALL_PT, color=style.MUTED, ha="right",
         )  # fmt: skip
+    noise = "" if runs[0].is_true else " Runs of a log differ only in the noise of the model."
     rest = f" The first {MAPS_MAX} of {len(results.runs)}." if len(results.runs) > MAPS_MAX else ""
     return Drawing(
         "runs",
         figure,
         f"Small maps of {len(runs)} runs with their landmarks",
-        "Every run at the same scale, with its landmarks coloured by sector. Runs of a log differ "
-        f"only in the noise of memory and choice.{rest}",
+        f"Every run at the same scale, with its landmarks coloured by sector.{noise}{rest}",
     )
