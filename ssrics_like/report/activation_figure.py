@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 SHOWN_MAX = len(style.HIGHLIGHTS)
 """Landmarks drawn in colour; the others are pale."""
-PALE_MAX = 300
+PALE_MAX = 200
 LEFT_PT, RIGHT_PT, TOP_PT, BOTTOM_PT = 42.0, 74.0, 10.0, 30.0
 HEIGHT_PT = 250.0
 LABEL_GAP_PT = 9.5

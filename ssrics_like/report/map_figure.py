@@ -54,21 +54,23 @@ def draw_map(results: Results) -> Drawing:
         if run.decided["recognised"]
         else ""
     )
+    hint = " Rest the pointer on a landmark for its particulars." if tips else ""
     return Drawing(
         "map",
         figure,
         f"Map of the path with {len(run.landmarks)} landmarks over the walls seen by the laser",
         "Grey: where laser beams ended, drawn from the scans. The line is the robot's path, darker "
         "with time. Filled dots are landmarks where they were declared, coloured by the sector in "
-        f"which the largest reading lay{rings}. Rest the "
-        "pointer on a landmark for its particulars; where it is crowded, some carry no number.",
+        f"which the largest reading lay{rings}; where "
+        f"it is crowded, some carry no name.{hint}",
         tips,
     )
 
 
 def extent_of(run: Run, outline: Outline) -> NDArray[np.float64]:
     """Return places, shape (n, 2), that bound a run's path, landmarks and walls."""
-    places = [run.path[:, 1:], *([(m.drawn_x_m, m.drawn_y_m)] for m in run.landmarks)]
+    marks = [(mark.drawn_x_m, mark.drawn_y_m) for mark in run.landmarks]
+    places = [run.path[:, 1:], np.array(marks, np.float64).reshape(-1, 2)]
     if len(outline.x):
         # Stray beams, through a door or window, may end outside.
         cells = np.column_stack([outline.x, outline.y]) * outline.cell_m
