@@ -2,13 +2,14 @@
 # make test   sets up what the tests need, runs them
 # make check  lint, types, and the built wheel used outside the checkout
 # make bench  the figures of docs/benchmarks.md
+# make pictures  the pictures of the README, from the main job
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: run test check lint types wheel bench clean
+.PHONY: run test check lint types wheel bench pictures clean
 
 run: $(VENV)/.installed
 	$(BIN)/ssrics run demo --out out/demo
@@ -30,6 +31,9 @@ wheel: $(VENV)/.dev
 
 bench: $(VENV)/.tests
 	for script in benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
+
+pictures: run
+	cp out/demo/figures/map.svg docs/images/demo-map.svg
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("ssrics-like needs Python 3.11 or newer, this is " + sys.version.split()[0] if sys.version_info < (3, 11) else 0)'

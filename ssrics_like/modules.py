@@ -64,7 +64,7 @@ class LandmarkModules:
                 "sector": TableSimilarity(
                     dict.fromkeys(itertools.combinations(SECTORS, 2), profile.sector_difference)
                 ),
-                "view": ViewSimilarity(),
+                "view": ViewSimilarity(profile.view_difference),
                 "place": PlaceSimilarity(profile.place_sigma_m, profile.place_drift),
             },
         )

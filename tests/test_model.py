@@ -21,7 +21,7 @@ PERCEPTION = PerceptionProfile(
 )
 # No noise, no threshold to speak of: what is recalled is decided by place alone.
 MEMORY = MemoryProfile(
-    retrieval_threshold=-6.0, latency_factor=0.005, mismatch_penalty=4.0, place_sigma_m=0.5
+    retrieval_threshold=-6.5, latency_factor=0.001, mismatch_penalty=8.0, place_sigma_m=0.5
 )
 
 
@@ -79,8 +79,8 @@ def test_a_mark_has_the_place_of_perceiving_and_the_time_of_deciding():
     model = landmark_model()
     (decision,) = drive(model, [(3.0, 1)])
     assert (decision.scan, decision.t_s, decision.pose.x_m) == (1, 1.0, 3.0)
-    # Attending takes 50 ms, failing to recall latency_factor * exp(6) s, declaring 50 ms.
-    waited = 0.05 + round(0.005 * math.exp(6.0), 3) + 0.05
+    # Attending takes 50 ms, failing to recall latency_factor * exp(6.5) s, declaring 50 ms.
+    waited = 0.05 + round(0.001 * math.exp(6.5), 3) + 0.05
     assert decision.decided_s == pytest.approx(1.0 + waited, abs=1e-3)
     assert decision.confidence == 1.0
     assert decision.activation is None

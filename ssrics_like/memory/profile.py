@@ -19,6 +19,9 @@ class MemoryProfile(MemoryParameters):
     sector_difference : float
         Similarity of two different sectors. Sectors are egocentric, turning on the spot changes
         them, so that a different sector says less than a different place.
+    view_difference : float
+        Similarity of two views that do not correlate. A view is egocentric too: a place looks
+        another from the other side.
     place_sigma_m : float
         Standard deviation, in metres, of where a landmark is marked from one visit to the next.
     place_drift : float
@@ -27,6 +30,7 @@ class MemoryProfile(MemoryParameters):
 
     title: str = ""
     source: str = ""
-    sector_difference: Annotated[float, Field(le=0)] = -0.25
+    sector_difference: Annotated[float, Field(le=0)] = -0.125
+    view_difference: Annotated[float, Field(le=0)] = -0.125
     place_sigma_m: Annotated[float, Field(gt=0)] = 1.0
     place_drift: Annotated[float, Field(ge=0)] = 0.02

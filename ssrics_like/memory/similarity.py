@@ -85,10 +85,20 @@ class ViewSimilarity:
     and perception agree on what looks alike; it ignores an offset and a scale of the
     ranges. Below 0 it carries no more news: two unrelated views correlate at about 0,
     and a view is no less a match for being the reverse of another.
+
+    Parameters
+    ----------
+    difference : float, optional
+        Similarity at r = 0 and below; the memory's max_difference if left out.
     """
+
+    def __init__(self, difference: float | None = None) -> None:
+        self._difference = difference
 
     def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
         """Make an empty column for the slot of that name."""
+        if self._difference is not None:
+            scale = scale._replace(different=self._difference)
         return ViewColumn(slot, scale)
 
 

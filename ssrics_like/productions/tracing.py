@@ -46,9 +46,17 @@ class Tracer:
         self._content = content
         self._sink = sink
         self._held: TraceEvent | None = None
+        self._asked: list[tuple[str, str]] = []
 
     def translate(self, t_s: float, process: str, action: str) -> None:
         """Take one event of pyactr: its time, process (a buffer or PROCEDURAL) and text."""
+        if action == "MODIFIED":
+            self.emit(t_s, "procedural", "mod-buffer-chunk", process)
+            return
+        # A production changes buffers first; what it asks and clears follows.
+        for what, buffer in self._asked:
+            self.emit(t_s, "procedural", what, buffer)
+        self._asked = []
         if process == "PROCEDURAL":
             self._procedural(t_s, action)
         elif action == "PUSHED":
@@ -63,7 +71,7 @@ class Tracer:
     def emit(self, t_s: float, module: str, action: str, name: str = "") -> None:
         """Hand on one event, with the buffer's chunk where the event sets one."""
         chunk = None
-        if action.startswith("set-buffer-chunk"):
+        if action.startswith("set-buffer-chunk") or action == "mod-buffer-chunk":
             content = self._content(name)
             if content is not None:
                 chunk = {"isa": content.chunk_type, **content.slots}
@@ -96,14 +104,9 @@ class Tracer:
         elif what == "RULE FIRED" and rule is not None:
             self.emit(t_s, "procedural", "production-fired", name)
             asked = [c.buffer for c in rule.text.actions if c.sign == "+"]
-            for clause in rule.text.actions:
-                if clause.sign == "=":
-                    self.emit(t_s, "procedural", "mod-buffer-chunk", clause.buffer)
-            for buffer in asked:
-                self.emit(t_s, "procedural", "module-request", buffer)
             cleared = [c.buffer for c in rule.text.actions if c.sign == "~"]
-            for buffer in (*cleared, *asked):
-                self.emit(t_s, "procedural", "clear-buffer", buffer)
+            self._asked = [("module-request", buffer) for buffer in asked]
+            self._asked += [("clear-buffer", buffer) for buffer in (*cleared, *asked)]
         elif what == "RULE STOPPED FROM FIRING":
             self.emit(t_s, "procedural", "production-stopped", name)
 

@@ -91,7 +91,10 @@ class Resolved:
                 "title": book.title,
                 "parameters": book.parameters.model_dump(),
                 "harvest": list(book.harvest),
-                "rules": {rule.name: rule.source for rule in book.rules},
+                "rules": {
+                    rule.name: {"why": rule.why, "utility": rule.utility, "rule": rule.source}
+                    for rule in book.rules
+                },
             },
             "memory": {"name": self.scenario.memory, **self.memory.model_dump()},
             "runs": self.scenario.runs,
