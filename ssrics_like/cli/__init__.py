@@ -20,23 +20,25 @@ INTERRUPTED = 130
 
 app = App(
     name="ssrics",
-    help="""Let a robot mark landmarks the way people do.
+    help="Let a robot mark landmarks the way people do.",
+    help_epilogue="""For example:
 
-    ssrics replay robot.log -o out/ : a robot's log in, landmarks and a report out.
+    ssrics replay robot.log -o out/
+    ssrics run demo -o out/
 
-    ssrics run demo -o out/ : a scenario from the library, or a file of your own.
-    """,
+ssrics COMMAND --help tells more.""",
+    help_format="plaintext",
     version=ssrics_like.__version__,
     version_flags=["--version"],
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-app.command(replay.replay)
-app.command(run.run)
-app.command(check.check)
-app.command(library.list_entries, name="list")
-app.command(library.show)
-app.command(report.report)
+app.command(replay.replay, help_epilogue="")
+app.command(run.run, help_epilogue="")
+app.command(check.check, help_epilogue="")
+app.command(library.list_entries, name="list", help_epilogue="")
+app.command(library.show, help_epilogue="")
+app.command(report.report, help_epilogue="")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -11,7 +11,9 @@ def check(*files: Path) -> int:
 
     Every problem of every file is reported; the exit status is 1 if there is any.
 
-    Examples: ssrics check robot.log my-rules.yaml
+    For example:
+
+        ssrics check robot.log my-rules.yaml
 
     Parameters
     ----------

@@ -6,7 +6,10 @@ from __future__ import annotations
 def list_entries(kind: str | None = None) -> None:
     """List the entries of the library, with their titles.
 
-    Examples: ssrics list | ssrics list productions
+    For example:
+
+        ssrics list
+        ssrics list productions
 
     Parameters
     ----------
@@ -28,7 +31,10 @@ def list_entries(kind: str | None = None) -> None:
 def show(kind: str, name: str) -> None:
     """Print an entry of the library: where it stands and what it says.
 
-    Examples: ssrics show productions landmark | ssrics show memory act-r > mine.yaml
+    For example:
+
+        ssrics show productions landmark
+        ssrics show memory act-r > mine.yaml
 
     Parameters
     ----------

@@ -26,9 +26,11 @@ def replay(
 ) -> None:
     """Replay a robot's log: landmarks, a topological memory and a report come out.
 
-    Examples: ssrics replay robot.log -o out/
-    | ssrics replay robot.log.gz -o out/ --perception report --productions report
-    | ssrics replay robot.log -o out/ --set memory.decay=0.3 --set perception.interval=30
+    For example:
+
+        ssrics replay robot.log -o out/
+        ssrics replay robot.log.gz -o out/ --perception report --productions report
+        ssrics replay robot.log -o out/ --set memory.decay=0.3
 
     Parameters
     ----------

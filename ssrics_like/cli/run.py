@@ -17,8 +17,10 @@ def run(
 ) -> None:
     """Run a scenario: its runs, one results folder, a report.
 
-    Examples: ssrics run demo -o out/
-    | ssrics run my-scenario.yaml -o out/ --set runs=3
+    For example:
+
+        ssrics run demo -o out/
+        ssrics run my-scenario.yaml -o out/ --set runs=3
 
     Parameters
     ----------
