@@ -20,7 +20,7 @@ from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.perception.reflex import PerceptionBuffer
 from ssrics_like.productions.engine import Engine
 from ssrics_like.productions.interface import TraceEvent
-from ssrics_like.productions.rulebook import Rulebook
+from ssrics_like.productions.rules import Rulebook
 
 
 class CognitiveModel:

@@ -43,6 +43,8 @@ class Document:
         Its content as plain Python values.
     marks : dict
         Path of keys -> place of the key (of the item, in a list).
+    first_line : dict
+        Path of keys -> line on which the value's own text begins: below the key of a block.
     problems : list of str
         What is already known to be wrong: keys that stand twice.
     """
@@ -50,6 +52,7 @@ class Document:
     path: Path
     data: dict[str, Any] = field(default_factory=dict)
     marks: dict[Key, Mark] = field(default_factory=dict)
+    first_line: dict[Key, int] = field(default_factory=dict)
     problems: list[str] = field(default_factory=list)
 
     def where(self, key: Key) -> str:
@@ -121,6 +124,7 @@ def _plain(node: Any, at: Key, doc: Document, loader: Any, above: tuple[int, ...
             doc.marks[*at, key] = mark
             values[key] = _plain(child, (*at, key), doc, loader, (*above, id(node)))
         return values
+    doc.first_line[at] = _mark(node).line + (node.style in ("|", ">"))
     return loader.construct_object(node)
 
 

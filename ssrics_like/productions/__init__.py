@@ -5,7 +5,8 @@ and checked without it.
 """
 
 from ssrics_like.productions.interface import BufferChunk, TraceEvent
-from ssrics_like.productions.rulebook import EngineParameters, Rule, Rulebook, load_rulebook
+from ssrics_like.productions.rulebook import load_rulebook
+from ssrics_like.productions.rules import EngineParameters, Rule, Rulebook
 
 __all__ = [
     "BufferChunk",

@@ -22,7 +22,7 @@ from ssrics_like.productions.interface import (
     LandmarkModule,
     TraceEvent,
 )
-from ssrics_like.productions.rulebook import Rule, Rulebook
+from ssrics_like.productions.rules import Rule, Rulebook
 from ssrics_like.productions.syntax import Clause
 from ssrics_like.productions.tracing import Tracer
 

@@ -14,7 +14,7 @@ from ssrics_like.errors import nearest
 from ssrics_like.productions.vocabulary import BUFFERS
 
 if TYPE_CHECKING:
-    from ssrics_like.productions.rulebook import Rule, Rulebook
+    from ssrics_like.productions.rules import Rule, Rulebook
 
 ANY = "*"
 

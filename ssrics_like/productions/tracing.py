@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from ssrics_like.productions.interface import BufferChunk, TraceEvent
 
 if TYPE_CHECKING:
-    from ssrics_like.productions.rulebook import Rule
+    from ssrics_like.productions.rules import Rule
 
 MODULES = {"g": "goal", "retrieval": "declarative"}
 """Buffer -> the module behind it, where the names differ."""

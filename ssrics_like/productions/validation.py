@@ -16,7 +16,7 @@ from ssrics_like.productions.syntax import Clause, Pair
 from ssrics_like.productions.vocabulary import BUFFERS, FIXED_TYPES, OUTCOMES, QUERIES
 
 if TYPE_CHECKING:
-    from ssrics_like.productions.rulebook import Rule, Rulebook
+    from ssrics_like.productions.rules import Rule, Rulebook
 
 Problem = tuple[int, str]
 

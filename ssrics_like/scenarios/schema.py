@@ -12,7 +12,8 @@ from ssrics_like import library, settings
 from ssrics_like.errors import SettingsError, choices, nearest
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
-from ssrics_like.productions.rulebook import Rulebook, load_rulebook
+from ssrics_like.productions.rulebook import load_rulebook
+from ssrics_like.productions.rules import Rulebook
 
 
 class _Strict(BaseModel):
