@@ -17,7 +17,7 @@ from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.modules import LandmarkModules
 from ssrics_like.perception.observation import Observation
 from ssrics_like.perception.profile import PerceptionProfile
-from ssrics_like.perception.reflex import PerceptionBuffer
+from ssrics_like.perception.reflex import PerceptionBuffer, Reflex
 from ssrics_like.productions.engine import Engine
 from ssrics_like.productions.interface import TraceEvent
 from ssrics_like.productions.rules import Rulebook
@@ -124,9 +124,7 @@ class CognitiveModel:
         now_s = observation.t_s - self._start_s
         self.engine.advance(now_s)
         for reflex in self.perception.update(observation):
-            overwritten = self.engine.push("orienting", self._modules.admit(reflex), now_s)
-            if overwritten is not None:
-                self._modules.overwrite(overwritten, now_s)
+            self._orient(reflex, now_s)
         return self._take()
 
     def finish(self) -> list[Decision]:
@@ -141,11 +139,15 @@ class CognitiveModel:
             now_s = self._previous.t_s - self._start_s
             for reflex in self.perception.flush():
                 self.engine.settle()
-                self.engine.push(
-                    "orienting", self._modules.admit(reflex), max(now_s, self.engine.now_s)
-                )
+                self._orient(reflex, max(now_s, self.engine.now_s))
         self.engine.settle()
         return self._take()
+
+    def _orient(self, reflex: Reflex, now_s: float) -> None:
+        """Put a reflex before the productions; one that waited there in vain is lost."""
+        overwritten = self.engine.push("orienting", self._modules.admit(reflex), now_s)
+        if overwritten is not None:
+            self._modules.overwrite(overwritten, now_s)
 
     def _take(self) -> list[Decision]:
         taken = self._decisions.copy()

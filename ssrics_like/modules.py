@@ -14,6 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from ssrics_like.decision import Decision
+from ssrics_like.errors import EngineError
 from ssrics_like.memory import (
     Chunk,
     DeclarativeMemory,
@@ -140,9 +141,22 @@ class LandmarkModules:
         self._made.pop(name, None)
 
     def mark(self, request: MarkRequest) -> BufferChunk | None:
-        """Carry out what a rule decided (LandmarkModule)."""
-        reflex, travelled_m = self._reflexes[request.event]
+        """Carry out what a rule decided (LandmarkModule).
+
+        Raises
+        ------
+        EngineError
+            The rule decides about no waiting reflex, or recognises no landmark that there is.
+        """
         name = request.landmark or ""
+        if request.event not in self._reflexes:
+            raise EngineError(
+                f"rule '{request.rule}' decides about event '{request.event}', which is no reflex "
+                "that waits for a decision (decided already, or not the event of a reflex)"
+            )
+        if request.outcome == "recognised" and name not in self.topological:
+            raise EngineError(f"rule '{request.rule}' recognises '{name}', which is no landmark")
+        reflex, travelled_m = self._reflexes[request.event]
         made = None
         if request.outcome == "declared":
             name = f"L{len(self.topological) + 1}"

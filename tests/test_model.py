@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import ssrics_like
 from ssrics_like import CognitiveModel, LaserScan, Observation, Pose
+from ssrics_like.errors import EngineError
 from ssrics_like.library import find
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
@@ -107,6 +108,58 @@ def test_reflexes_that_come_too_fast_overwrite_each_other_and_are_counted():
     assert outcomes.count("overwritten") == 18
     assert all(d.rule == "" and d.landmark == "" for d in decisions if d.decision == "overwritten")
     assert {d.event for d in decisions} == set(range(20))
+
+
+RULES = """\
+title: Odd
+chunk_types:
+  reflex: [event]
+  mark: [outcome, event, landmark]
+  task: [state]
+goal: {{isa: task, state: watch}}
+harvest: []
+rules:
+  - name: odd
+    why: To see what comes of it.
+    rule: |
+      =g> isa task state watch
+      =orienting> isa reflex event =event
+      ==>
+{actions}
+"""
+
+
+def odd_model(tmp_path, actions):
+    path = tmp_path / "odd.yaml"
+    path.write_text(RULES.format(actions="".join(f"      {line}\n" for line in actions)))
+    return CognitiveModel(PERCEPTION, load_rulebook(path), MEMORY)
+
+
+def test_a_reflex_that_was_attended_but_left_in_its_buffer_is_not_overwritten(tmp_path):
+    actions = ["=g> isa task state done", "+landmark> isa mark outcome declared event =event"]
+    model = odd_model(tmp_path, actions)
+    decisions = drive(model, [(0.0, 1), (10.0, 2), (20.0, 3)])
+    # The first is decided, the second overwritten by the third, the third never attended to.
+    assert [(d.event, d.decision) for d in decisions] == [(0, "declared"), (1, "overwritten")]
+    assert model.decisions_pending == 1
+
+
+@pytest.mark.parametrize(
+    ("action", "said"),
+    [
+        (
+            "+landmark> isa mark outcome declared event none",
+            "rule 'odd' decides about event 'none'",
+        ),
+        (
+            "+landmark> isa mark outcome recognised event =event landmark L9",
+            "rule 'odd' recognises 'L9', which is no landmark",
+        ),
+    ],
+)
+def test_a_rule_that_decides_nonsense_is_named(tmp_path, action, said):
+    with pytest.raises(EngineError, match=said):
+        drive(odd_model(tmp_path, [action, "~orienting>"]), [(0.0, 1)])
 
 
 def test_report_rules_dismiss_a_novel_interval_in_the_same_sector():

@@ -109,6 +109,7 @@ def test_grammar_errors_name_their_line(rule, line, said):
         ("=g>\n", "?orienting> novelty_above much\n      =g>\n", 4, "where a number was expected"),
         ("      =orienting>", "      =g> isa task\n      =orienting>", 7, "'=g>' stands twice"),
         ("          outcome declared\n", "", 11, "slot 'outcome' is missing"),
+        ("outcome declared", "outcome recognised", 11, "slot 'landmark' is missing"),
         ("          event =event\n      ~", "          event ~=event\n      ~", 14, "only a retrieval"),
         ("isa task\n          state", "state", 4, "names no chunk type"),
         ("~orienting>", "=imaginal> isa task", 15, "does not test"),

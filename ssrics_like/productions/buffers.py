@@ -124,7 +124,20 @@ class _ModuleBuffer(buffers.Buffer):
 
 
 class OrientingBuffer(_ModuleBuffer):
-    """Holds the reflex that perception fired last."""
+    """Holds the reflex that perception fired last.
+
+    Attributes
+    ----------
+    attended : bool
+        Whether a production that tests the buffer has fired since the chunk was put there.
+    """
+
+    attended = False
+
+    def put(self, chunk: BufferChunk) -> None:
+        """Set the buffer's chunk, which nobody has attended to yet."""
+        super().put(chunk)
+        self.attended = False
 
     def test(self, state: str, inquiry: str) -> bool:
         """Answer ``?orienting> novelty_above x`` too; an empty buffer answers no."""

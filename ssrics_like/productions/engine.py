@@ -191,8 +191,9 @@ class Engine:
             The unattended chunk that this one overwrote.
         """
         self._run(t_s)
-        overwritten: BufferChunk | None = self._buffers[buffer].content
-        self._buffers[buffer].put(chunk)
+        holder = self._buffers[buffer]
+        overwritten: BufferChunk | None = None if holder.attended else holder.content
+        holder.put(chunk)
         event = utilities.Event(self.now_s, buffer, "PUSHED")
         self._simulation.__printevent__(event)
         self._simulation.__activate__(event)
@@ -262,6 +263,9 @@ class Engine:
         if event.proc == PROCEDURAL and event.action.startswith("RULE FIRED: "):
             self._fired = event.action.removeprefix("RULE FIRED: ")
             self.firings += 1
+            tests = self._rules[self._fired].text.tests
+            if any(test.sign == "=" and test.buffer == "orienting" for test in tests):
+                self._buffers["orienting"].attended = True
         self._tracer.translate(float(event.time), event.proc, event.action)
 
     def _content(self, buffer: str) -> BufferChunk | None:

@@ -152,10 +152,13 @@ def _of_an_action(clause: Clause, tested: set[str]) -> Iterator[Problem]:
                 yield pair.line, f"'{pair.slot}': only a retrieval request can exclude a value"
     if clause.buffer == "landmark" and clause.sign == "+":
         given = {pair.slot: pair for pair in clause.pairs}
-        for slot in ("outcome", "event"):
+        outcome = given.get("outcome")
+        needed = ["outcome", "event"]
+        if outcome and outcome.word == "recognised":
+            needed.append("landmark")
+        for slot in needed:
             if slot not in given:
                 yield clause.line, f"'{clause}': slot '{slot}' is missing"
-        outcome = given.get("outcome")
         if outcome and (outcome.variable or outcome.word not in OUTCOMES):
             yield outcome.line, _unknown("outcome", outcome.word, OUTCOMES)
 
