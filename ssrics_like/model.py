@@ -6,12 +6,12 @@ Every source, a log, a simulated building or a live robot, comes through
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 import numpy as np
 
 from ssrics_like.decision import Decision
+from ssrics_like.errors import choices
 from ssrics_like.memory import DeclarativeMemory, Retrieval, TopologicalMemory
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.modules import LandmarkModules
@@ -21,6 +21,8 @@ from ssrics_like.perception.reflex import PerceptionBuffer, Reflex
 from ssrics_like.productions.engine import Engine
 from ssrics_like.productions.interface import TraceEvent
 from ssrics_like.productions.rules import Rulebook
+
+FRAMES = ("odometry", "corrected", "map")
 
 
 class CognitiveModel:
@@ -36,6 +38,9 @@ class CognitiveModel:
         How it remembers.
     seed : int
         Seed of activation noise and utility noise.
+    frame : {"odometry", "corrected", "map"}
+        Frame of the observations' poses. Only odometry drifts; in the others a place stays as
+        certain as it was, whatever the memory profile's `place_drift`.
     trace : callable, optional
         Receives every TraceEvent; its times are in seconds since the first observation.
     retrieved : callable, optional
@@ -57,9 +62,14 @@ class CognitiveModel:
         memory: MemoryProfile,
         *,
         seed: int = 0,
+        frame: str = "odometry",
         trace: Callable[[TraceEvent], None] = lambda _: None,
         retrieved: Callable[[float, Retrieval], None] = lambda _time, _retrieval: None,
     ) -> None:
+        if frame not in FRAMES:
+            raise ValueError(f"frame is {frame!r}; expected one of {choices(FRAMES)}")
+        if frame != "odometry":
+            memory = memory.model_copy(update={"place_drift": 0.0})
         memory_seed, utility_seed = np.random.SeedSequence(seed).spawn(2)
         self.perception = PerceptionBuffer(perception)
         self._decisions: list[Decision] = []
@@ -102,7 +112,8 @@ class CognitiveModel:
         Returns
         -------
         list of Decision
-            In the order of deciding; a decision comes some tenths of a second after its reflex.
+            In the order of deciding. A decision comes later than what it is about: perception
+            waits for a peak of novelty to pass, and a retrieval takes time.
 
         Raises
         ------
@@ -112,14 +123,11 @@ class CognitiveModel:
         if self._start_s is None:
             self._start_s = observation.t_s
             self._modules.begin(observation.t_s)
-        if self._previous is not None:
-            if observation.t_s < self._previous.t_s:
-                raise ValueError(
-                    f"observation {observation.index} is at {observation.t_s} s, before "
-                    f"{self._previous.t_s} s; observations must come in order of time"
-                )
-            before, here = self._previous.pose, observation.pose
-            self._modules.travel(math.hypot(here.x_m - before.x_m, here.y_m - before.y_m))
+        if self._previous is not None and observation.t_s < self._previous.t_s:
+            raise ValueError(
+                f"observation {observation.index} is at {observation.t_s} s, before "
+                f"{self._previous.t_s} s; observations must come in order of time"
+            )
         self._previous = observation
         now_s = observation.t_s - self._start_s
         self.engine.advance(now_s)

@@ -1,14 +1,15 @@
 """Joins the production engine to the landmark memories.
 
 Rules see words only. A view or a place is too rich for a word, so it travels
-through the rules as a handle, ``view-12`` for that of reflex 12, and is looked
-up here on its way to declarative memory.
+through the rules as a handle: ``view-12`` is that of reflex 12, ``view-of-L3``
+that of landmark L3. Handles are looked up here on their way to memory.
 """
 
 from __future__ import annotations
 
 import itertools
 import math
+from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -33,6 +34,7 @@ from ssrics_like.productions.interface import BufferChunk, MarkRequest, Recall, 
 
 CONTINUOUS = ("view", "place")
 SECTORS = ("left", "front", "right")
+REMEMBERED = 64  # decided reflexes whose handles rules may still use
 
 
 class LandmarkModules:
@@ -70,33 +72,27 @@ class LandmarkModules:
             },
         )
         self.topological = TopologicalMemory()
-        self.last: str | None = None
         self._decided = decided
         self._retrieved = retrieved
         self._start_s = 0.0
-        self._travelled_m = 0.0
-        self._reflexes: dict[str, tuple[Reflex, float]] = {}
-        self._made: dict[str, tuple[Reflex, float]] = {}
-        self._left: tuple[Reflex, float] | None = None
+        self._waiting: dict[str, Reflex] = {}
+        self._known: OrderedDict[str, Reflex] = OrderedDict()
+        self._last: tuple[str, Reflex] | None = None
         self._recalled: Retrieval | None = None
 
     @property
     def undecided(self) -> int:
         """Number of reflexes about which nothing was decided yet."""
-        return len(self._reflexes)
+        return len(self._waiting)
 
     def begin(self, start_s: float) -> None:
         """Set the source's time that is zero in the engine."""
         self._start_s = start_s
 
-    def travel(self, distance_m: float) -> None:
-        """Count the distance the robot went since the last call."""
-        self._travelled_m += distance_m
-
     def admit(self, reflex: Reflex) -> BufferChunk:
         """Register a reflex and return its chunk for the orienting buffer."""
         event = str(reflex.event)
-        self._reflexes[event] = (reflex, self._travelled_m)
+        self._waiting[event] = reflex
         slots = {
             "event": event,
             "modality": reflex.modality,
@@ -110,7 +106,7 @@ class LandmarkModules:
 
     def overwrite(self, chunk: BufferChunk, t_s: float) -> None:
         """Record that a reflex was overwritten, unattended, at engine time `t_s`."""
-        self._decide(chunk.slots["event"], t_s, "overwritten", "", "", asked=False)
+        self._decide(chunk.slots["event"], t_s, "overwritten", "", "", None)
 
     def recall(
         self,
@@ -119,26 +115,34 @@ class LandmarkModules:
         t_s: float,
         sources: Mapping[str, Sequence[str]],
     ) -> Recall:
-        """Answer a retrieval request (DeclarativeModule)."""
+        """Answer a retrieval request (DeclarativeModule).
+
+        Raises
+        ------
+        EngineError
+            The rule asks for a view or place by a word that is no handle.
+        """
         slots = tuple((t.slot, self._value(t.slot, t.value), t.negated) for t in tests)
         found = self.declarative.retrieve(Request(chunk_type, slots), t_s, sources)
         self._recalled = found
         self._retrieved(t_s, found)
         if found.chunk is None:
             return Recall(None, found.latency_s)
-        words = {slot: _word(value) for slot, value in found.chunk.slots.items()}
-        return Recall(BufferChunk(found.chunk.type, words, found.chunk.name), found.latency_s)
+        name = found.chunk.name
+        words = {
+            slot: f"{slot}-of-{name}" if isinstance(value, View | Place) else str(value)
+            for slot, value in found.chunk.slots.items()
+        }
+        return Recall(BufferChunk(found.chunk.type, words, name), found.latency_s)
 
     def harvest(self, chunk: BufferChunk, t_s: float) -> None:
         """Take a cleared chunk into declarative memory (DeclarativeModule)."""
         if chunk.name is not None and chunk.name in self.declarative:
             self.declarative.strengthen(chunk.name, t_s)
             return
-        seen = self._made.get(chunk.name or "")
-        slots = {slot: self._value(slot, word, seen) for slot, word in chunk.slots.items()}
+        slots = {slot: self._value(slot, word) for slot, word in chunk.slots.items()}
         name = chunk.name or f"{chunk.chunk_type}-{len(self.declarative)}"
         self.declarative.add(Chunk(name, chunk.chunk_type, slots), t_s)
-        self._made.pop(name, None)
 
     def mark(self, request: MarkRequest) -> BufferChunk | None:
         """Carry out what a rule decided (LandmarkModule).
@@ -149,84 +153,115 @@ class LandmarkModules:
             The rule decides about no waiting reflex, or recognises no landmark that there is.
         """
         name = request.landmark or ""
-        if request.event not in self._reflexes:
+        reflex = self._waiting.get(request.event)
+        if reflex is None:
             raise EngineError(
-                f"rule '{request.rule}' decides about event '{request.event}', which is no reflex "
-                "that waits for a decision (decided already, or not the event of a reflex)"
+                f"decides about event '{request.event}', which is no reflex that waits for a "
+                "decision (decided already, or not the event of a reflex)"
             )
         if request.outcome == "recognised" and name not in self.topological:
-            raise EngineError(f"rule '{request.rule}' recognises '{name}', which is no landmark")
-        reflex, travelled_m = self._reflexes[request.event]
+            raise EngineError(f"recognises '{name}', which is no landmark")
         made = None
         if request.outcome == "declared":
             name = f"L{len(self.topological) + 1}"
-            self.topological.add_landmark(
-                name,
-                reflex.pose.x_m,
-                reflex.pose.y_m,
-                reflex.pose.theta_rad,
-                reflex.t_s,
-                sector=reflex.sector,
-                structure=reflex.structure,
-                salience=reflex.novelty,
-            )
-            self._made[name] = (reflex, travelled_m)
-            slots = {
-                "id": name,
-                "sector": reflex.sector,
-                "structure": reflex.structure,
-                "view": f"view-{request.event}",
-                "place": f"place-{request.event}",
-            }
-            made = BufferChunk("landmark", slots, name)
+            made = self._declare(name, reflex)
         if request.outcome in ("declared", "recognised"):
-            self._arrive(name, reflex, travelled_m, new=request.outcome == "declared")
-        self._decide(request.event, request.t_s, request.outcome, name, request.rule)
+            self._arrive(name, reflex, new=made is not None)
+        self._decide(
+            request.event, request.t_s, request.outcome, name, request.rule, self._recalled
+        )
+        self._recalled = None
         return made
 
-    def _arrive(self, name: str, reflex: Reflex, travelled_m: float, *, new: bool) -> None:
-        """Note in the topological memory that the robot came to a landmark."""
-        if self.last is not None and self._left is not None and self.last != name:
-            before, travelled_before_m = self._left
+    def _declare(self, name: str, reflex: Reflex) -> BufferChunk:
+        """Add a landmark to the graph; return its chunk for the landmark buffer."""
+        self.topological.add_landmark(
+            name,
+            reflex.pose.x_m,
+            reflex.pose.y_m,
+            reflex.pose.theta_rad,
+            reflex.t_s,
+            sector=reflex.sector,
+            structure=reflex.structure,
+            salience=reflex.novelty,
+        )
+        slots = {
+            "id": name,
+            "sector": reflex.sector,
+            "structure": reflex.structure,
+            "view": f"view-{reflex.event}",
+            "place": f"place-{reflex.event}",
+        }
+        return BufferChunk("landmark", slots, name)
+
+    def _arrive(self, name: str, reflex: Reflex, *, new: bool) -> None:
+        """Note in the memories that the robot came to a landmark, if it was at another before."""
+        if self._last is not None and self._last[0] != name:
+            left, before = self._last
             dx = reflex.pose.x_m - before.pose.x_m
             dy = reflex.pose.y_m - before.pose.y_m
             self.topological.traverse(
-                self.last,
+                left,
                 name,
                 math.hypot(dx, dy),
                 math.atan2(dy, dx) - before.pose.theta_rad,
-                max(travelled_m - travelled_before_m, math.hypot(dx, dy)),
+                reflex.travelled_m - before.travelled_m,
             )
-        if not new and self.last != name:
-            self.topological.visit(name, reflex.t_s)
-            if name in self.declarative and "place" in self.declarative[name].slots:
-                # The landmark stays where it was marked first: to move it with every recognition
-                # would let it creep after the robot. Only its uncertainty starts anew.
-                place = self.declarative[name].slots["place"]
-                if isinstance(place, Place):
-                    renewed = Place(place.x_m, place.y_m, travelled_m)
-                    self.declarative.replace(name, "place", renewed)
-        self.last = name
-        self._left = (reflex, travelled_m)
+            if not new:
+                self.topological.visit(name, reflex.t_s)
+                self._relocate(name, reflex)
+        self._last = (name, reflex)
 
-    def _value(
-        self, slot: str, word: str, seen: tuple[Reflex, float] | None = None
-    ) -> str | View | Place:
-        """Look a handle up: the view or place of a reflex that is `seen` or still to be decided."""
+    def _relocate(self, name: str, reflex: Reflex) -> None:
+        """Move a landmark's place towards where odometry has it now.
+
+        By the ratio of variances (a Kalman gain): all the way after long travel, when odometry has
+        drifted by more than a mark scatters; not at all without drift. So a landmark follows the
+        drift, and does not creep after the robot.
+        """
+        place = self.declarative[name].slots.get("place") if name in self.declarative else None
+        if not isinstance(place, Place):
+            return
+        drift = (self.profile.place_drift * (reflex.travelled_m - place.travelled_m)) ** 2
+        gain = drift / (drift + self.profile.place_sigma_m**2)
+        here = Place(
+            place.x_m + gain * (reflex.pose.x_m - place.x_m),
+            place.y_m + gain * (reflex.pose.y_m - place.y_m),
+            reflex.travelled_m,
+        )
+        self.declarative.replace(name, "place", here)
+
+    def _value(self, slot: str, word: str) -> str | View | Place:
+        """Look a handle up; other slots hold plain words."""
         if slot not in CONTINUOUS:
             return word
-        reflex, travelled_m = seen or self._reflexes[word.partition("-")[2]]
+        kind, _, rest = word.partition("-")
+        owner = rest.removeprefix("of-")
+        if kind == slot and owner != rest and owner in self.declarative:
+            stored = self.declarative[owner].slots.get(slot)
+            if isinstance(stored, View | Place):
+                return stored
+        reflex = self._waiting.get(rest) or self._known.get(rest)
+        if kind != slot or reflex is None:
+            raise EngineError(f"slot '{slot}' holds '{word}', which is no {slot} of a reflex")
         if slot == "view":
             return View(word, reflex.view)
-        return Place(reflex.pose.x_m, reflex.pose.y_m, travelled_m)
+        return Place(reflex.pose.x_m, reflex.pose.y_m, reflex.travelled_m)
 
     def _decide(
-        self, event: str, t_s: float, outcome: str, landmark: str, rule: str, *, asked: bool = True
+        self,
+        event: str,
+        t_s: float,
+        outcome: str,
+        landmark: str,
+        rule: str,
+        recalled: Retrieval | None,
     ) -> None:
-        reflex, _ = self._reflexes.pop(event)
-        activation, confidence = self._certainty(outcome) if asked else (None, None)
-        if asked:
-            self._recalled = None
+        reflex = self._waiting.pop(event)
+        self._known[event] = reflex
+        if len(self._known) > REMEMBERED:
+            self._known.popitem(last=False)
+        activation, confidence = self._certainty(recalled)
         self._decided(
             Decision(
                 event=reflex.event,
@@ -247,30 +282,19 @@ class LandmarkModules:
             )
         )
 
-    def _certainty(self, outcome: str) -> tuple[float | None, float | None]:
-        """Return the activation that decided, and the probability of the same outcome.
+    def _certainty(self, recalled: Retrieval | None) -> tuple[float | None, float | None]:
+        """Return the best activation, and how probable this retrieval's outcome was.
 
-        ACT-R's recall probability, 1 / (1 + exp(-(A - tau) / s)), with the activation before noise.
+        Every candidate i passes the threshold with ACT-R's recall probability
+        p_i = 1 / (1 + exp(-(A_i - tau) / s)), A_i before noise; a failure has the probability
+        prod(1 - p_i), a success the rest. Without noise either is certain.
         """
-        found = self._recalled
-        if found is None:
+        if recalled is None:
             return None, None
-        best = found.candidates.best
-        if best is None:
-            return None, 1.0
-        noiseless = best.total - best.noise
-        scale = self.profile.activation_noise
-        distance = noiseless - self.profile.retrieval_threshold
-        recall = float(distance >= 0) if scale == 0 else _logistic(distance / scale)
-        return best.total, recall if outcome == "recognised" else 1.0 - recall
-
-
-def _word(value: object) -> str:
-    """Put a slot's value into a word that rules can carry."""
-    if isinstance(value, Place):
-        return f"x{value.x_m:.2f}y{value.y_m:.2f}"
-    return value.name if isinstance(value, View) else str(value)
-
-
-def _logistic(x: float) -> float:
-    return 1.0 / (1.0 + math.exp(-x)) if x >= 0 else math.exp(x) / (1.0 + math.exp(x))
+        found = recalled.candidates
+        best = found.best
+        if best is None or self.profile.activation_noise == 0:
+            return best.total if best else None, 1.0
+        above = (found.total - found.noise - found.threshold) / self.profile.activation_noise
+        failure = float(np.exp(-np.logaddexp(0.0, above).sum()))
+        return best.total, failure if recalled.chunk is None else 1.0 - failure

@@ -7,6 +7,7 @@ pydantic has said what is wrong.
 
 from __future__ import annotations
 
+import re
 import types
 import typing
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,6 +21,17 @@ from pydantic import BaseModel, ValidationError
 from ssrics_like.errors import SettingsError, nearest
 
 Key = tuple[str | int, ...]
+
+
+class _Loader(yaml.SafeLoader):
+    """Reads 1e-3 as a number, as YAML 1.2 does; YAML 1.1 wants 1.0e-3."""
+
+
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(r"[-+]?[0-9][0-9_]*(\.[0-9_]*)?[eE][-+]?[0-9]+"),
+    list("-+0123456789"),
+)
 Settings = TypeVar("Settings", bound=BaseModel)
 
 
@@ -45,14 +57,17 @@ class Document:
         Path of keys -> place of the key (of the item, in a list).
     first_line : dict
         Path of keys -> line on which the value's own text begins: below the key of a block.
+    unread : set
+        Paths of keys whose value could not be read.
     problems : list of str
-        What is already known to be wrong: keys that stand twice.
+        What is already known to be wrong: keys that stand twice, values that cannot be read.
     """
 
     path: Path
     data: dict[str, Any] = field(default_factory=dict)
     marks: dict[Key, Mark] = field(default_factory=dict)
     first_line: dict[Key, int] = field(default_factory=dict)
+    unread: set[Key] = field(default_factory=set)
     problems: list[str] = field(default_factory=list)
 
     def where(self, key: Key) -> str:
@@ -80,7 +95,7 @@ def read_document(path: Path) -> Document:
     except (OSError, UnicodeDecodeError) as e:
         raise SettingsError(f"{path}: cannot be read as text ({e.__class__.__name__})") from None
     try:
-        loader = yaml.SafeLoader(text)
+        loader = _Loader(text)
         root = loader.get_single_node()
     except yaml.MarkedYAMLError as e:
         mark = e.problem_mark or e.context_mark
@@ -112,8 +127,12 @@ def _plain(node: Any, at: Key, doc: Document, loader: Any, above: tuple[int, ...
     if isinstance(node, yaml.MappingNode):
         values: dict[str, Any] = {}
         for key_node, child in node.value:
-            key = str(getattr(key_node, "value", key_node.tag))
             mark = _mark(key_node)
+            if not isinstance(key_node, yaml.ScalarNode):
+                place = f"{doc.path}:{mark.line}:{mark.column}"
+                doc.problems.append(f"{place}: a key must be a word, not a list or mapping")
+                continue
+            key = str(key_node.value)
             if key in values:
                 first = doc.marks[*at, key]
                 doc.problems.append(
@@ -124,8 +143,16 @@ def _plain(node: Any, at: Key, doc: Document, loader: Any, above: tuple[int, ...
             doc.marks[*at, key] = mark
             values[key] = _plain(child, (*at, key), doc, loader, (*above, id(node)))
         return values
-    doc.first_line[at] = _mark(node).line + (node.style in ("|", ">"))
-    return loader.construct_object(node)
+    mark = _mark(node)
+    doc.first_line[at] = mark.line + (node.style in ("|", ">"))
+    try:
+        return loader.construct_object(node)
+    except (yaml.YAMLError, ValueError):
+        doc.unread.add(at)
+        doc.problems.append(
+            f"{doc.path}:{mark.line}:{mark.column}: {node.value!r} cannot be read as {node.tag}"
+        )
+        return None
 
 
 def _mark(node: Any) -> Mark:
@@ -144,43 +171,63 @@ def validated(kind: type[Settings], document: Document) -> Settings:
     try:
         settings = kind.model_validate(document.data)
     except ValidationError as e:
-        problems += [f"{document.where(key)}: {text}" for key, text in explain(kind, e)]
+        problems += [
+            f"{document.where(key)}: {text}"
+            for key, text in explain(kind, e, document.data)
+            if key not in document.unread
+        ]
         raise SettingsError("\n".join(_by_place(problems))) from None
     if problems:
-        raise SettingsError("\n".join(problems))
+        raise SettingsError("\n".join(_by_place(problems)))
     return settings
 
 
-def explain(kind: type[BaseModel], error: ValidationError) -> list[tuple[Key, str]]:
+def explain(kind: type[BaseModel], error: ValidationError, data: Any) -> list[tuple[Key, str]]:
     """Say each of pydantic's complaints in one line: key, value, expectation, nearest name."""
-    lines = []
+    lines: list[tuple[Key, str]] = []
+    mistyped: dict[Key, list[str]] = {}
     for item in error.errors():
-        at = tuple(item["loc"])
-        key = ".".join(str(part) for part in at) or "the file"
+        where = _in_data(tuple(item["loc"]), data)
+        key = ".".join(str(part) for part in item["loc"]) or "the file"
         if item["type"] == "extra_forbidden":
-            known = fields_at(kind, at[:-1])
-            lines.append((at, f"unknown key '{key}'{_hint(str(at[-1]), known)}"))
+            known = fields_at(kind, where[:-1])
+            lines.append((where, f"unknown key '{key}'{_hint(str(where[-1]), known)}"))
+        elif item["loc"][-1:] == ("[key]",):  # of a mapping whose keys are fixed words
+            known = re.findall(r"'([^']*)'", item["msg"])
+            name = ".".join(str(part) for part in where)
+            lines.append((where, f"unknown key '{name}'{_hint(str(item['input']), known)}"))
         elif item["type"] == "missing":
-            lines.append((at, f"key '{key}' is missing"))
+            lines.append((where, f"key '{key}' is missing"))
         elif item["type"].endswith(("_type", "_parsing")) or item["type"] == "literal_error":
             expected = item["msg"].removeprefix("Input should be ").partition(", unable")[0]
-            value = item["input"]
-            hint = ""
-            if item["type"] == "literal_error" and isinstance(value, str):
-                hint = nearest(value, expected.replace("'", "").replace(" or ", ", ").split(", "))
-            lines.append((at, f"{key}: {value!r} where {expected} was expected{hint}"))
+            mistyped.setdefault(where, []).append(expected)
         else:
+            key = ".".join(str(part) for part in where)
             said = item["msg"].removeprefix("Input should be ")
             own = said.removeprefix("Value error, ")  # a validator's own words say it all
-            lines.append(
-                (
-                    at,
-                    f"{key}: {own}"
-                    if own != said
-                    else f"{key}: {_shown(item['input'])}: expected {said}",
-                )
-            )
+            shown = _shown(item["input"])
+            said = f"{shown}: expected {said}" if own == said else own
+            lines.append((where, f"{key}: {said}" if key else said))
+    for where, expectations in mistyped.items():
+        value: Any = data
+        for part in where:
+            value = value[part]
+        wanted = " or ".join(dict.fromkeys(expectations))
+        words = re.findall(r"'([^']*)'", wanted)
+        hint = nearest(value, words) if words and isinstance(value, str) else ""
+        key = ".".join(str(part) for part in where)
+        lines.append((where, f"{key}: {_shown(value)} where {wanted} was expected{hint}"))
     return lines
+
+
+def _in_data(at: Key, data: Any) -> Key:
+    """Cut a complaint's path to the keys that the data has: a union adds its branches' names."""
+    for depth, part in enumerate(at):
+        try:
+            data = data[part]
+        except (KeyError, IndexError, TypeError):
+            return at[:depth]
+    return at
 
 
 def _shown(value: Any) -> str:
@@ -269,7 +316,7 @@ def override(settings: Settings, changes: Mapping[str, Any], prefix: str) -> Set
         try:
             return kind.model_validate(data)
         except ValidationError as e:
-            problems = [f"--set {prefix}{text}" for _, text in explain(kind, e)]
+            problems = [f"--set {prefix}{text}" for _, text in explain(kind, e, data)]
     raise SettingsError("\n".join(problems))
 
 
@@ -290,6 +337,6 @@ def parse_override(text: str) -> tuple[str, Any]:
     if not equals or not key.strip():
         raise SettingsError(f"--set {text}: expected key=value, for example memory.decay=0.3")
     try:
-        return key.strip(), yaml.safe_load(value)
-    except yaml.YAMLError:
+        return key.strip(), yaml.load(value, _Loader)  # noqa: S506 - a SafeLoader
+    except (yaml.YAMLError, ValueError):
         raise SettingsError(f"--set {text}: the value {value!r} is not valid YAML") from None

@@ -229,7 +229,7 @@ def test_rules_that_never_come_to_rest_are_stopped(tmp_path):
         "    rule: =g> isa task state go ==> =g> isa task state go\n"
     )
     engine, _, _ = make(path)
-    with pytest.raises(EngineError, match=r"'again'.*must change what it tests"):
+    with pytest.raises(EngineError, match=r"loop\.yaml: rule 'again'.*must change what it tests"):
         engine.settle()
 
 

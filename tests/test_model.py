@@ -149,11 +149,11 @@ def test_a_reflex_that_was_attended_but_left_in_its_buffer_is_not_overwritten(tm
     [
         (
             "+landmark> isa mark outcome declared event none",
-            "rule 'odd' decides about event 'none'",
+            "rule 'odd': decides about event 'none'",
         ),
         (
             "+landmark> isa mark outcome recognised event =event landmark L9",
-            "rule 'odd' recognises 'L9', which is no landmark",
+            "rule 'odd': recognises 'L9', which is no landmark",
         ),
     ],
 )

@@ -10,9 +10,9 @@ from ssrics_like.errors import SettingsError
 from ssrics_like.perception import make_marker
 
 
-def marked(mark, novelties, prominence=0.1, threshold=0.75):
+def marked(mark, novelties, prominence=0.1, threshold=0.75, patience=1000):
     """Indices marked, and after which interval each was reported (None: by flush)."""
-    marker = make_marker(mark, threshold, prominence)
+    marker = make_marker(mark, threshold, prominence, patience)
     reports = []
     for k, novelty in enumerate(novelties):
         index = marker.update(1 - novelty)
@@ -47,6 +47,12 @@ def test_of_a_plateau_the_first_interval_is_the_peak():
     assert marked("peak", [0.5, 0.9, 0.9, 0.9, 0.5]) == [(1, 4)]
 
 
+def test_a_plateau_is_not_waited_out():
+    assert marked("peak", [0.3, *[0.9] * 50], patience=5) == [(1, 6)]
+    # A higher peak later in the same stretch is one of its own; a ripple is not.
+    assert marked("peak", [0.5] * 8 + [0.55, 0.9, 0.7], patience=5) == [(0, 5), (9, 10)]
+
+
 def test_ripples_smaller_than_the_prominence_are_not_marked():
     falling = [0.9, 0.7, 0.75, 0.65, 0.7, 0.6, 0.65, 0.1]
     assert marked("peak", falling) == [(0, 1)]
@@ -66,7 +72,7 @@ def test_nothing_is_marked_while_bored():
 
 def test_flushing_ends_the_stretch():
     for mark, expected in (("onset", 1), ("peak", None)):
-        marker = make_marker(mark, 0.75, 0.1)
+        marker = make_marker(mark, 0.75, 0.1, 1000)
         marker.update(0.2)
         marker.flush()
         assert marker.flush() is None
@@ -98,8 +104,8 @@ def test_peaks_are_novel_in_order_and_no_two_without_a_valley(novelties, promine
 )
 def test_wrong_settings_are_refused(arguments, message):
     with pytest.raises(SettingsError, match=message):
-        make_marker(*arguments)
+        make_marker(*arguments, 20)
 
 
 def test_only_peak_needs_a_prominence():
-    assert make_marker("onset", 0.75, 0.0).update(0.1) == 0
+    assert make_marker("onset", 0.75, 0.0, 20).update(0.1) == 0

@@ -32,8 +32,8 @@ from ssrics_like.report.records import Reflex
 from ssrics_like.report.spans import spans_of
 from ssrics_like.report.walls import raster
 from ssrics_like.report.words import clock, fraction_text, number_text, time_text
-from ssrics_like.scenarios import tables
-from ssrics_like.scenarios.files import csv_text, json_text
+from ssrics_like.results import tables
+from ssrics_like.results.files import csv_text, json_text
 
 START_S = 976053557.75
 LAP_S = 60.0

@@ -19,11 +19,11 @@ from hypothesis import strategies as st
 from ssrics_like.errors import ResultsError, SourceError
 from ssrics_like.library import folder
 from ssrics_like.memory.store import load_topology
-from ssrics_like.scenarios.files import csv_line, number, write_atomically
-from ssrics_like.scenarios.folder import ResultsFolder, read_manifest
+from ssrics_like.results.files import csv_line, number, write_atomically
+from ssrics_like.results.folder import ResultsFolder, read_manifest
+from ssrics_like.results.thinning import Outline, Series
 from ssrics_like.scenarios.runner import run_scenario
 from ssrics_like.scenarios.schema import make_scenario, resolve
-from ssrics_like.scenarios.thinning import Outline, Series
 
 DEMO = folder("scenarios") / "logs" / "demo.log.gz"
 COLUMNS = {  # the contract, literally

@@ -65,6 +65,11 @@ def test_all_errors_come_at_once_with_line_and_column_in_order(tmp_path):
     ]
 
 
+def test_numbers_may_be_written_with_an_exponent(tmp_path):
+    assert load(tmp_path, "inner:\n  decay: 1e-3\n").inner.decay == 0.001
+    assert settings.parse_override("a=2e3") == ("a", 2000.0)
+
+
 def test_an_unknown_key_that_resembles_nothing_lists_the_known_ones(tmp_path):
     (found,) = complaints(tmp_path, "inner:\n  zzz: 1\n")
     assert found == ":2:3: unknown key 'inner.zzz'; known keys: decay, rule"
@@ -81,6 +86,9 @@ def test_an_unknown_key_that_resembles_nothing_lists_the_known_ones(tmp_path):
         ("a: 1\n b: 2\n", "not valid YAML"),
         ("a: &x\n  b: *x\n", "contains itself"),
         ("a: \x00\n", "not valid YAML"),
+        ("title: 2024-13-45\n", ":1:8: '2024-13-45' cannot be read as"),
+        ("runs: !foo 3\n", ":1:7: '3' cannot be read as !foo"),
+        ("? [a, b]\n: 1\n", ":1:3: a key must be a word"),
     ],
 )
 def test_what_is_no_settings_file_is_one_clear_line(tmp_path, text, said):

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 import ssrics_like
-from ssrics_like.cli import check, library, replay, report, run
+from ssrics_like.cli import check, library, replay, report, run, schema
 from ssrics_like.errors import SsricsError
 
 USER_ERROR = 1
@@ -39,6 +39,7 @@ app.command(check.check, help_epilogue="")
 app.command(library.list_entries, name="list", help_epilogue="")
 app.command(library.show, help_epilogue="")
 app.command(report.report, help_epilogue="")
+app.command(schema.schema, help_epilogue="")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

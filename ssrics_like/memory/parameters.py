@@ -61,7 +61,7 @@ class MemoryParameters(BaseModel):
     Anderson, J. R. (2007). How Can the Human Mind Occur in the Physical Universe?
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
     subsymbolic: bool = True
     decay: Annotated[float, Field(gt=0)] | None = 0.5

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -30,6 +30,7 @@ class MemoryProfile(MemoryParameters):
 
     title: str = ""
     source: str = ""
+    source_activation: dict[Literal["g", "imaginal"], float] = {"imaginal": 1.0}  # type: ignore[assignment]
     sector_difference: Annotated[float, Field(le=0)] = -0.125
     view_difference: Annotated[float, Field(le=0)] = -0.125
     place_sigma_m: Annotated[float, Field(gt=0)] = 1.0

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 ADVANCES = ("tumbling", "sliding")
 MARKS = ("every", "onset", "peak")
-ANCHORS = ("newest", "middle", "oldest")
 SECTOR_RULES = ("maximum", "robust")
 
 

@@ -79,9 +79,11 @@ class PeakMarker:
     """Marks the local maxima of novelty = 1 - tau inside each novel stretch.
 
     The first of the highest intervals is the candidate. It is marked once
-    novelty has dropped by `prominence` below it, or when the stretch ends. After
-    a drop, novelty must rise by `prominence` from its lowest value since before
-    there is a candidate again, so that ripples are not marked.
+    novelty has dropped by `prominence` below it, when the stretch ends, or when
+    no higher one has come for `patience` intervals: where novelty stays at its
+    highest, waiting for the drop could take minutes. After a mark, novelty must
+    rise by `prominence` from its lowest value since before there is a candidate
+    again, so that ripples are not marked.
 
     Parameters
     ----------
@@ -89,11 +91,14 @@ class PeakMarker:
         An interval with a larger tau is not novel.
     prominence : float
         Novelty, a fraction.
+    patience : int
+        Intervals, 1 or more.
     """
 
-    def __init__(self, threshold: float, prominence: float) -> None:
+    def __init__(self, threshold: float, prominence: float, patience: int) -> None:
         self.threshold = require_fraction("threshold", threshold)
         self.prominence = require_fraction("prominence", prominence)
+        self.patience = patience
         self.intervals = 0
         self.candidate: int | None = None
         self._extreme: float | None = None  # the candidate's novelty, or the lowest since a mark
@@ -110,7 +115,10 @@ class PeakMarker:
         elif self.candidate is not None:
             if novelty > self._extreme:
                 self.candidate, self._extreme = index, novelty
-            elif novelty <= self._extreme - self.prominence:
+            elif (
+                novelty <= self._extreme - self.prominence
+                or index - self.candidate >= self.patience
+            ):
                 marked, self.candidate, self._extreme = self.candidate, None, novelty
                 return marked
         elif novelty >= self._extreme + self.prominence:
@@ -125,11 +133,11 @@ class PeakMarker:
         return marked
 
 
-def make_marker(mark: str, threshold: float, prominence: float) -> Marker:
-    """Return the marker named "every", "onset" or "peak"; only the last uses `prominence`."""
+def make_marker(mark: str, threshold: float, prominence: float, patience: int) -> Marker:
+    """Return the marker named "every", "onset" or "peak"; only the last uses the rest."""
     require_choice("mark", mark, MARKS)
     if mark == "every":
         return EveryMarker(threshold)
     if mark == "onset":
         return OnsetMarker(threshold)
-    return PeakMarker(threshold, prominence)
+    return PeakMarker(threshold, prominence, patience)

@@ -6,6 +6,7 @@ is marked does the buffer fire a reflex, the chunk that the productions attend t
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
@@ -47,6 +48,8 @@ class Reflex:
     perceived_s : float
         Time of the newest scan when the buffer fired; later than `t_s` where a
         peak had to be awaited or the anchor is not the newest scan.
+    travelled_m : float
+        Length of the path from the first observation to the anchor, metres.
     modality : str
         The sense, "laser".
     novelty : float
@@ -65,6 +68,7 @@ class Reflex:
     pose: Pose
     true_pose: Pose | None
     perceived_s: float
+    travelled_m: float
     modality: str
     novelty: float
     sector: Sector
@@ -97,6 +101,7 @@ class IntervalExample:
 class _Sensed(NamedTuple):
     observation: Observation
     ranges_m: NDArray[np.float64]
+    travelled_m: float
 
 
 class _Moment(NamedTuple):
@@ -145,14 +150,21 @@ class PerceptionBuffer:
         self.restarts = 0
         self._events = 0
         self._detector = NoveltyDetector(profile.interval, profile.gradient, profile.advance)
-        self._marker = make_marker(profile.mark, profile.threshold, profile.prominence)
+        self._marker = make_marker(
+            profile.mark,
+            profile.threshold,
+            profile.prominence,
+            # As many intervals as pass before one shares no scan with the candidate.
+            patience=profile.interval if profile.advance == "sliding" else 1,
+        )
         self._held: deque[_Sensed] = deque(maxlen=profile.interval)
         self._anchor = {"oldest": 0, "middle": profile.interval // 2, "newest": -1}[profile.anchor]
         self._laser: LaserScan | None = None
         self._sectors: SectorClassifier | None = None
         self._novel = False
         self._pending: _Moment | None = None
-        self._newest_s = 0.0
+        self._newest: Observation | None = None
+        self._travelled_m = 0.0
         self._examples: dict[bool, _Example] = {}
 
     @property
@@ -173,8 +185,11 @@ class PerceptionBuffer:
         ranges_m = condition(
             observation.scan.ranges_m, profile.range_cap_m, profile.repair_window
         ).ranges_m
-        self._held.append(_Sensed(observation, ranges_m))
-        self._newest_s = observation.t_s
+        if self._newest is not None:
+            here, before = observation.pose, self._newest.pose
+            self._travelled_m += math.hypot(here.x_m - before.x_m, here.y_m - before.y_m)
+        self._newest = observation
+        self._held.append(_Sensed(observation, ranges_m, self._travelled_m))
         tau = self._detector.update(ranges_m)
         if tau is not None:
             self._take_interval(tau, fired)
@@ -234,15 +249,17 @@ class PerceptionBuffer:
             self._pending = moment
 
     def _fire(self, moment: _Moment) -> Reflex:
-        observation, ranges_m = moment.anchor
-        assert self._sectors is not None  # set by the first observation
+        observation, ranges_m, travelled_m = moment.anchor
+        assert self._sectors is not None  # both are set by the first observation
+        assert self._newest is not None
         reflex = Reflex(
             event=self._events,
             scan=observation.index,
             t_s=observation.t_s,
             pose=observation.pose,
             true_pose=observation.true_pose,
-            perceived_s=self._newest_s,
+            perceived_s=self._newest.t_s,
+            travelled_m=travelled_m,
             modality="laser",
             novelty=moment.novelty,
             sector=self._sectors.classify(ranges_m),

@@ -37,8 +37,10 @@ from ssrics_like.productions import buffers  # noqa: E402
 
 PYACTR_VERSION = "0.3.2"
 UNNAMED, PROCEDURAL = "UNKNOWN", "PROCEDURAL"  # how pyactr marks its events
-IDLE_LIMIT_S = 60.0
-"""A rule set that still fires this long after its last input is taken to run for ever."""
+FIRINGS_LIMIT = 1000
+"""A rule set that fires so often after its last input is taken to run for ever."""
+INSTANT_S = 5e-5
+"""Half of pyactr's tick: what lies within it happens at the same moment."""
 
 
 def probe() -> None:
@@ -204,40 +206,52 @@ class Engine:
         return self._content(buffer)
 
     def advance(self, t_s: float) -> None:
-        """Let happen all that happens before `t_s`; costs next to nothing when idle."""
-        if self._environment.peek() < t_s:
+        """Let happen all that happens up to `t_s`; costs next to nothing when idle."""
+        if self._environment.peek() <= t_s:
             self._run(t_s)
 
     def settle(self) -> None:
-        """Run until nothing is left to happen.
+        """Run until nothing is left to happen, however long a retrieval takes.
 
         Raises
         ------
         EngineError
-            The rules still fire a minute after the last input.
+            The rules go on firing without any input.
         """
-        limit = self.now_s + IDLE_LIMIT_S
-        while not self.idle:
-            self._run(self._environment.peek() + 1e-4)
-            if self.now_s > limit and not self.idle:
-                raise EngineError(
-                    f"{self.rulebook.path}: the rules still fire {IDLE_LIMIT_S:g} s after the last "
-                    f"input (last: '{self._fired}'); a rule must change what it tests"
-                )
+        limit = self.firings + FIRINGS_LIMIT
+        with self._at_work():
+            while not self.idle:
+                self._environment.step()
+                if self.firings > limit:
+                    raise EngineError(
+                        f"the rules fired {FIRINGS_LIMIT} times since the last input and go on; "
+                        "a rule must change what it tests"
+                    )
         self._tracer.flush()
 
     def _run(self, t_s: float) -> None:
+        """Let happen all that happens up to a time, and set the clock to it.
+
+        Not by simulation.run(until): some versions of simpy leave its stop event queued, after
+        which the model never looks idle; and it stops in the middle of an instant, where a rule
+        may have fired whose actions are still to come.
+        """
         until = round(t_s, 4)  # pyactr's clock has tenths of a millisecond
-        if until <= self.now_s:
-            return
-        with self._own_random():
-            try:
-                # Not simulation.run(until): some versions of simpy leave its stop event queued,
-                # after which the model never looks idle.
+        with self._at_work():
+            if until > self.now_s:
                 arrival = self._environment.timeout(until - self._environment.now)
                 while not arrival.processed:
                     self._environment.step()
-            except utilities.ACTRError as e:
+            while self._environment.peek() <= until + INSTANT_S:
+                self._environment.step()
+
+    @contextmanager
+    def _at_work(self) -> Iterator[None]:
+        """Let pyactr work: with this model's random stream, naming the rule in errors."""
+        with self._own_random():
+            try:
+                yield
+            except (utilities.ACTRError, EngineError) as e:
                 raise EngineError(f"{self.rulebook.path}: rule '{self._fired}': {e}") from e
         self._used_rules.clear()  # a record for utility learning that would grow without end
 

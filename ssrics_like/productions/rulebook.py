@@ -25,7 +25,9 @@ class _RuleEntry(_Strict):
     utility: float = 0.0
 
 
-class _RuleFile(_Strict):
+class RuleFile(_Strict):
+    """The keys of a rule file, before its rules are taken apart."""
+
     title: str
     source: str = ""
     chunk_types: dict[str, tuple[str, ...]]
@@ -45,7 +47,7 @@ def load_rulebook(path: Path) -> Rulebook:
     """
     try:
         document = settings.read_document(path)
-        entry = settings.validated(_RuleFile, document)
+        entry = settings.validated(RuleFile, document)
     except SettingsError as e:
         raise RuleError(str(e)) from None
     problems: list[tuple[int, str]] = []

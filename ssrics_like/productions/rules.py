@@ -24,7 +24,7 @@ class EngineParameters(BaseModel):
         Seconds to build a chunk in the imaginal buffer (``:imaginal-delay``).
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
     rule_firing: Annotated[float, Field(gt=0)] = 0.05
     utility_noise: Annotated[float, Field(ge=0)] = 0.0

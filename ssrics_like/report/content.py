@@ -41,7 +41,12 @@ def content_of(results: Results) -> dict[str, Any]:
         "rules": _rules(run, scenario["productions"]["rules"]),
         "settings": [_settings(kind, scenario[kind]) for kind in ("perception", "memory")],
         "facts": _facts(results),
-        "manifest": json.dumps(manifest, indent=2, ensure_ascii=False),
+        # Equal results make equal pages, so the page leaves out when they were made.
+        "manifest": json.dumps(
+            {key: value for key, value in manifest.items() if key != "wall_clock"},
+            indent=2,
+            ensure_ascii=False,
+        ),
     }
 
 
@@ -173,14 +178,10 @@ def _facts(results: Results) -> list[tuple[str, str]]:
     """Return where the results come from."""
     manifest = results.manifest
     source, versions = manifest["input"], manifest["versions"]
-    facts = [
+    return [
         ("input", f"{source['file']} ({source['format']})"),
         ("sha256", str(source["sha256"])),
         ("frame of positions", str(manifest["frame"])),
         ("seed", str(manifest["seed"])),
         ("versions", ", ".join(f"{name} {version}" for name, version in versions.items())),
     ]
-    wall = manifest.get("wall_clock")
-    if wall:
-        facts.append(("made", f"{wall['started']}, in {float(wall['seconds']):.1f} s"))
-    return facts

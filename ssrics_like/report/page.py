@@ -18,7 +18,7 @@ from ssrics_like.report.reading import read_results
 from ssrics_like.report.records import Results
 from ssrics_like.report.runs_figure import draw_runs
 from ssrics_like.report.timeline_figure import draw_timeline
-from ssrics_like.scenarios.files import write_atomically
+from ssrics_like.results.files import write_atomically
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -17,7 +17,7 @@ from ssrics_like.errors import ResultsError
 from ssrics_like.memory.store import load_topology
 from ssrics_like.report.pictures import Activation, Histogram, Novelty, Outline, Pictures
 from ssrics_like.report.records import Landmark, Reflex, Results, Run
-from ssrics_like.scenarios.folder import read_manifest
+from ssrics_like.results.folder import read_manifest
 
 Row = dict[str, str]
 Item = TypeVar("Item")

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
 
 from ssrics_like import settings
-from ssrics_like.errors import SettingsError, choices
+from ssrics_like.errors import SettingsError, choices, nearest
 from ssrics_like.library import SUFFIXES
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
-from ssrics_like.productions.rulebook import load_rulebook
-from ssrics_like.scenarios.folder import read_manifest
+from ssrics_like.productions.rulebook import RuleFile, load_rulebook
+from ssrics_like.results.folder import read_manifest
 from ssrics_like.scenarios.schema import Scenario, load_scenario, resolve
 from ssrics_like.sources import open_log
 
@@ -55,6 +58,7 @@ def _rules(path: Path) -> str:
 
 def _scenario(path: Path) -> str:
     resolved = resolve(load_scenario(path), path.parent)
+    open_log(resolved.log, format=resolved.scenario.source.format)
     return f"'{resolved.scenario.title}', {resolved.scenario.runs} run(s) of {resolved.log.name}"
 
 
@@ -71,6 +75,27 @@ def _log(path: Path) -> str:
     said = "; ".join(source.report.warnings())
     what = f"{source.format} log, {scans} scans, frame {source.frame}"
     return f"{what}; {said}" if said else what
+
+
+def json_schema(kind: str) -> dict[str, Any]:
+    """Return the JSON Schema of a kind of YAML file.
+
+    Raises
+    ------
+    SettingsError
+        There is no such kind.
+    """
+    models: dict[str, type[BaseModel]] = {
+        "scenario": Scenario,
+        "perception": PerceptionProfile,
+        "memory": MemoryProfile,
+        "productions": RuleFile,
+    }
+    if kind not in models:
+        raise SettingsError(
+            f"no schema of '{kind}'{nearest(kind, models)}; there are {choices(models)}"
+        )
+    return models[kind].model_json_schema()
 
 
 KINDS: dict[str, Callable[[Path], str]] = {

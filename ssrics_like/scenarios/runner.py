@@ -15,8 +15,8 @@ import numpy as np
 
 import ssrics_like
 from ssrics_like.model import CognitiveModel
-from ssrics_like.scenarios.folder import ResultsFolder
-from ssrics_like.scenarios.recorder import Recorder
+from ssrics_like.results.folder import ResultsFolder
+from ssrics_like.results.recorder import Recorder
 from ssrics_like.scenarios.schema import Resolved
 from ssrics_like.sources import LogSource, open_log
 
@@ -105,6 +105,7 @@ def _one_run(
             resolved.productions,
             resolved.memory,
             seed=seed,
+            frame=source.frame,
             trace=recorder.traced,
             retrieved=recorder.retrieved,
         )
@@ -119,6 +120,11 @@ def _one_run(
     warnings = source.report.warnings()
     if entry["undecided"]:
         warnings.append(f"{entry['undecided']} reflexes were still undecided at the end of the run")
+    if entry["restarts"]:
+        warnings.append(
+            f"the laser changed {entry['restarts']} times (beams or angles); each time the "
+            "interval of the novelty algorithm began anew"
+        )
     return {**entry, "seed": seed, "ended": "end of log", "warnings": warnings}
 
 

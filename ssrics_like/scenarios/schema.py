@@ -13,11 +13,11 @@ from ssrics_like.errors import SettingsError, choices, nearest
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.productions.rulebook import load_rulebook
-from ssrics_like.productions.rules import Rulebook
+from ssrics_like.productions.rules import EngineParameters, Rulebook
 
 
 class _Strict(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
 
 class LogSettings(_Strict):
@@ -125,7 +125,7 @@ def make_scenario(data: dict[str, Any]) -> Scenario:
     try:
         return Scenario.model_validate(data)
     except ValidationError as e:
-        lines = [text for _, text in settings.explain(Scenario, e)]
+        lines = [text for _, text in settings.explain(Scenario, e, data)]
         raise SettingsError("\n".join(lines)) from None
 
 
@@ -166,6 +166,12 @@ def load_productions(name: str | Path) -> Rulebook:
 MODULES = ("perception", "productions", "memory")
 
 
+class _Engine(_Strict):
+    """The part of a rule set that ``--set productions.parameters...`` reaches."""
+
+    parameters: EngineParameters
+
+
 def resolve(scenario: Scenario, base: Path, overrides: list[str] | None = None) -> Resolved:
     """Read the files that a scenario names and apply ``--set`` overrides.
 
@@ -199,15 +205,19 @@ def resolve(scenario: Scenario, base: Path, overrides: list[str] | None = None) 
                 f"known: {choices(known)}"
             )
     scenario = settings.override(scenario, own, "")
-    perception = load_perception(_at(base, scenario.perception))
-    book = load_productions(_at(base, scenario.productions))
-    memory = load_memory(_at(base, scenario.memory))
-    parameters = settings.override(book.parameters, changes["productions"], "productions.")
+    # A path that was typed starts where it was typed; one in a scenario file, at that file.
+    start = {key: Path() if key in own else base for key in (*MODULES, "source.log")}
+    perception = load_perception(_at(start["perception"], scenario.perception))
+    book = load_productions(_at(start["productions"], scenario.productions))
+    memory = load_memory(_at(start["memory"], scenario.memory))
+    engine = settings.override(
+        _Engine(parameters=book.parameters), changes["productions"], "productions."
+    )
     return Resolved(
         scenario=scenario,
-        log=base / scenario.source.log,
+        log=start["source.log"] / scenario.source.log,
         perception=settings.override(perception, changes["perception"], "perception."),
-        productions=replace(book, parameters=parameters),
+        productions=replace(book, parameters=engine.parameters),
         memory=settings.override(memory, changes["memory"], "memory."),
     )
 

@@ -46,6 +46,8 @@ class CarmenReader:
 
     stamp_names: tuple[str, ...] = ("ipc_time", "logger_time")
 
+    states_beams = True
+
     def __init__(self) -> None:
         self.skipped: dict[str, int] = Counter()
         self._kind: bytes | None = None

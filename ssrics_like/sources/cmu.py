@@ -29,6 +29,8 @@ class CmuReader:
 
     stamp_names: tuple[str, ...] = ("time",)
 
+    states_beams = False
+
     def __init__(self) -> None:
         self.skipped: dict[str, int] = Counter()
 

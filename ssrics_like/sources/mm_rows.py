@@ -49,6 +49,8 @@ class MmRowsReader:
 
     stamp_names: tuple[str, ...] = ("microseconds",)
 
+    states_beams = False
+
     def __init__(self) -> None:
         self.skipped: dict[str, int] = Counter()
         self._columns = 0

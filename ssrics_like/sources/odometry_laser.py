@@ -26,6 +26,8 @@ class OdometryLaserReader:
 
     stamp_names: tuple[str, ...] = ()
 
+    states_beams = True
+
     def __init__(self) -> None:
         self.skipped: dict[str, int] = Counter()
         self._pose: Pose | None = None

@@ -57,7 +57,8 @@ def read_records(
             record = reader.parse(line)
             if record is not None:
                 beams = beams or record.ranges_m.size
-                _same_beams(record.ranges_m.size, beams)
+                if not reader.states_beams:
+                    _same_beams(record.ranges_m.size, beams)
         except MalformedLineError as problem:
             record = None
             books.malformed(problem)

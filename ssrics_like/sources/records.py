@@ -65,9 +65,20 @@ class LaserRecord:
 
 
 class RecordReader(Protocol):
-    """A format: lines in, laser records out. It may remember earlier lines."""
+    """A format: lines in, laser records out. It may remember earlier lines.
+
+    Attributes
+    ----------
+    stamp_names : tuple of str
+        Names of the times in a record.
+    states_beams : bool
+        Whether each record says how many beams it has, so that another number is no damage.
+    skipped : dict
+        Kind of line -> how many were passed over.
+    """
 
     stamp_names: tuple[str, ...]
+    states_beams: bool
     skipped: dict[str, int]
 
     def parse(self, line: bytes) -> LaserRecord | None:

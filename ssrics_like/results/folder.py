@@ -13,15 +13,15 @@ from pathlib import Path
 from typing import Any
 
 from ssrics_like.errors import ResultsError
-from ssrics_like.scenarios import tables
-from ssrics_like.scenarios.files import csv_line, json_text, plain, write_atomically
+from ssrics_like.results import tables
+from ssrics_like.results.files import csv_line, json_text, plain, write_atomically
 
 MANIFEST = "manifest.json"
 FORMAT = "ssrics-results"
 VERSION = 1
 _OURS = {
     MANIFEST, "decisions.csv", "landmarks.csv", "path.csv", "topology", "trace", "report.html",
-    "figures", ".runs",
+    "figures",
 }  # fmt: skip
 
 
@@ -45,7 +45,8 @@ class ResultsFolder:
         if path.exists() and not path.is_dir():
             raise ResultsError(f"{path}: is a file, expected a folder for results")
         if path.is_dir():
-            foreign = sorted(item.name for item in path.iterdir() if item.name not in _OURS)
+            names = (item.name for item in path.iterdir() if not item.name.startswith("."))
+            foreign = sorted(name for name in names if name not in _OURS)
             if foreign:
                 raise ResultsError(
                     f"{path}: holds '{foreign[0]}', which is no result of ssrics; "
@@ -81,10 +82,7 @@ class ResultsFolder:
             raise ResultsError(f"{self.path}: cannot be written ({e.strerror})") from None
         if resume and note.is_file():
             if note.read_text(encoding="utf-8") != text:
-                raise ResultsError(
-                    f"{self.path}: its runs were made from other settings or another version; "
-                    "resume with the same ones, or without --resume to start anew"
-                )
+                raise self._other()
         else:
             shutil.rmtree(self.staging)
             self.staging.mkdir()
@@ -94,13 +92,25 @@ class ResultsFolder:
         return {entry["run"]: entry for entry in self._entries()}
 
     def complete(self, description: dict[str, Any]) -> dict[str, Any] | None:
-        """Return the manifest, if all runs of this description are here already."""
-        if not (self.path / MANIFEST).is_file():
+        """Return the manifest, if a finished command has left all its runs here.
+
+        Raises
+        ------
+        ResultsError
+            It has, but they were made from another description.
+        """
+        if self.staging.exists() or not (self.path / MANIFEST).is_file():
             return None
         manifest = read_manifest(self.path)
-        same = all(manifest.get(key) == value for key, value in plain(description).items())
-        done = len(manifest["runs"]) == description["scenario"]["runs"]
-        return manifest if same and done else None
+        if any(manifest.get(key) != value for key, value in plain(description).items()):
+            raise self._other()
+        return manifest
+
+    def _other(self) -> ResultsError:
+        return ResultsError(
+            f"{self.path}: its runs were made from other settings or another version; resume "
+            "with the same ones, or without --resume to start anew"
+        )
 
     def tidy(self) -> None:
         """Remove the separate runs once the tables hold all of them."""
@@ -149,6 +159,7 @@ class ResultsFolder:
             (self.path / name).mkdir(exist_ok=True)
             for old in (self.path / name).iterdir():
                 old.unlink()
+        (self.path / "report.html").unlink(missing_ok=True)  # drawn anew from all runs
         for folder in folders:
             for source, target in (
                 ("topology.json", f"topology/{folder.name}.json"),
@@ -205,7 +216,11 @@ def read_manifest(path: Path) -> dict[str, Any]:
         manifest: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     except ValueError as e:
         raise ResultsError(f"{file}: is damaged: {e}") from None
-    if not isinstance(manifest, dict) or manifest.get("format") != FORMAT:
+    if (
+        not isinstance(manifest, dict)
+        or manifest.get("format") != FORMAT
+        or not isinstance(manifest.get("version"), int)
+    ):
         raise ResultsError(f"{file}: is not a results manifest")
     if manifest["version"] > VERSION:
         raise ResultsError(

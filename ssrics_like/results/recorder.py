@@ -18,9 +18,9 @@ from ssrics_like.perception.histogram import correlation_histogram
 from ssrics_like.perception.observation import Observation
 from ssrics_like.perception.reflex import IntervalExample
 from ssrics_like.productions.interface import TraceEvent
-from ssrics_like.scenarios import tables
-from ssrics_like.scenarios.files import csv_line, csv_text, json_text, write_atomically
-from ssrics_like.scenarios.thinning import Outline, Series
+from ssrics_like.results import tables
+from ssrics_like.results.files import csv_line, csv_text, json_text, write_atomically
+from ssrics_like.results.thinning import Outline, Series
 
 PATH_STEP_S = 0.1  # path.csv holds at most 10 poses a second
 ACTIVATION_POINTS = 300
@@ -118,7 +118,7 @@ class Recorder:
         """Write what is known only at the end; return the run's entry for the manifest."""
         for file in self._files.values():
             file.flush()
-        rows = tables.landmark_rows(self.run, model, self.start_s, self.end_s)
+        rows = tables.landmark_rows(self.run, model)
         write_atomically(self.folder / "landmarks.csv", csv_text(tables.LANDMARKS, rows))
         for ending in ("json", "graphml"):
             save_topology(model.topological, self.folder / f"topology.{ending}")
@@ -137,6 +137,7 @@ class Recorder:
                 "novel_intervals": seen.novel_intervals,
                 "onsets": seen.onsets,
             },
+            "restarts": seen.restarts,
             "decisions": dict(sorted(self.decided.items())),
             "undecided": model.decisions_pending,
             "landmarks": len(model.topological),
@@ -145,9 +146,13 @@ class Recorder:
 
     def _figure_data(self, model: CognitiveModel) -> dict[str, Any]:
         """Collect what the report draws and no table holds."""
-        names = [n.id for n in model.topological.nodes if n.id in model.declarative]
+        memory = model.declarative
         gradient = model.perception.profile.gradient
         times = np.linspace(0.0, self.end_s - self.start_s, ACTIVATION_POINTS)
+        levels = np.array([memory.activations(float(t)) for t in times])
+        levels[~np.isfinite(levels)] = np.nan  # not there yet
+        column = {name: i for i, name in enumerate(memory.names)}
+        landmarks = [node.id for node in model.topological.nodes if node.id in column]
         return {
             "outline": self._outline.as_data(),
             "novelty": self._novelty.as_data(),
@@ -157,18 +162,9 @@ class Recorder:
             },
             "activation": {
                 "t_s": (times + self.start_s).tolist(),
-                "base_level": {
-                    name: [_base_level(model, name, float(t)) for t in times] for name in names
-                },
+                "base_level": {name: levels[:, column[name]].tolist() for name in landmarks},
             },
         }
-
-
-def _base_level(model: CognitiveModel, name: str, t_s: float) -> float | None:
-    """Return a chunk's base level as it was at a time; None before it was made."""
-    if model.declarative.references(name)[0] >= t_s:
-        return None
-    return model.declarative.base_level(name, t_s)
 
 
 def _histogram(example: IntervalExample | None, gradient: float) -> dict[str, Any] | None:

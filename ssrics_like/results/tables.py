@@ -74,19 +74,17 @@ def path_row(run: int, o: Observation) -> list[Any]:
     ]  # fmt: skip
 
 
-def landmark_rows(
-    run: int, model: CognitiveModel, start_s: float, end_s: float
-) -> Iterator[list[Any]]:
+def landmark_rows(run: int, model: CognitiveModel) -> Iterator[list[Any]]:
     """Return the rows of landmarks.csv.
 
     Salience is the novelty at which the landmark was declared; relevance the number of other
     landmarks that it was reached from or left for, a choice point having three or more;
-    permanence the base-level activation of its chunk at the end of the run, empty where the rule
-    set keeps no memory.
+    permanence the base-level activation of its chunk when the last production has fired, empty
+    where the rule set keeps no memory.
     """
     for node in model.topological.nodes:
         permanence = (
-            model.declarative.base_level(node.id, end_s - start_s)
+            model.declarative.base_level(node.id, model.engine.now_s)
             if node.id in model.declarative
             else None
         )
