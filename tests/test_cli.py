@@ -32,6 +32,34 @@ def test_replay_says_what_came_out_and_where_the_report_is(capsys, tmp_path):
     assert (out / "report.html").is_file()
 
 
+def test_the_same_command_twice_makes_the_same_bytes(capsys, tmp_path):
+    def made(name):
+        run(capsys, "replay", DEMO, "-o", tmp_path / name, "-q", "--seed", "4")
+        return {
+            path.relative_to(tmp_path / name): path.read_bytes()
+            for path in sorted((tmp_path / name).rglob("*"))
+            if path.is_file() and path.name != "manifest.json"
+        }
+
+    one = made("one")
+    assert {path.suffix for path in one} >= {".html", ".svg", ".csv", ".jsonl", ".graphml", ".json"}
+    assert made("two") == one
+
+
+def test_json_schemas_know_the_keys(capsys):
+    import json
+
+    for kind, key in [
+        ("scenario", "perception"), ("perception", "gradient"), ("memory", "decay"),
+        ("productions", "chunk_types"),
+    ]:  # fmt: skip
+        status, printed, _ = run(capsys, "schema", kind)
+        assert status == 0
+        schema = json.loads(printed)
+        assert key in schema["properties"]
+        assert schema["additionalProperties"] is False
+
+
 def test_quiet_says_nothing_and_overrides_reach_the_manifest(capsys, tmp_path):
     status, said, complained = run(
         capsys, "replay", DEMO, "-o", tmp_path / "out", "-q", "--perception", "report",

@@ -26,11 +26,11 @@ MEMORY = MemoryProfile(
 )
 
 
-def observe(index, t_s, x_m, view, y_m=0.0):
+def observe(index, t_s, x_m, view, y_m=0.0, theta_rad=0.0):
     """Return an observation of one of a few views; different views do not correlate."""
     ranges = 2.0 + np.random.default_rng(view).random(BEAMS)
     scan = LaserScan(ranges, -math.pi / 2, math.pi / BEAMS)
-    return Observation(index, t_s, Pose(x_m, y_m, 0.0), scan)
+    return Observation(index, t_s, Pose(x_m, y_m, theta_rad), scan)
 
 
 def drive(model, stops):
@@ -67,6 +67,115 @@ def test_the_arcs_hold_distance_and_direction_of_each_way_driven():
     assert there.path_m == pytest.approx(10.0)
     assert there.bearing_rad == pytest.approx(0.0)
     assert abs(back.bearing_rad) == pytest.approx(math.pi)
+
+
+def tour(model, poses):
+    """Stand at each pose long enough for one novel interval, and for deciding about it."""
+    decisions = []
+    for i, (x_m, y_m, theta_rad, view) in enumerate(poses):
+        for j in (0, 1):
+            seen = view + 1000 * j
+            decisions += model.observe(observe(2 * i + j, 10.0 * i + j, x_m, seen, y_m, theta_rad))
+    return decisions + model.finish()
+
+
+def test_the_direction_of_an_arc_is_relative_to_the_heading_on_leaving():
+    model = landmark_model()
+    # Heading north at the origin, the next landmark lies to the east: to the right.
+    tour(model, [(0.0, 0.0, math.pi / 2, 1), (5.0, 0.0, math.pi, 2), (5.0, 5.0, 0.3, 3)])
+    assert model.topological.arc("L1", "L2").bearing_rad == pytest.approx(-math.pi / 2)
+    # Heading west there, the third lies to the north: to the right again.
+    assert model.topological.arc("L2", "L3").bearing_rad == pytest.approx(-math.pi / 2)
+
+
+def test_an_arc_knows_the_way_driven_and_the_straight_line():
+    model = landmark_model()
+    bored = [(4.0, 0.0), (4.0, 3.0)]  # driven through, but seeing the same all the time
+    poses = [(0.0, 0.0, 0.0, 1), *[(x, y, 0.0, 7) for x, y in bored], (0.0, 3.0, 0.0, 2)]
+    decisions = []
+    for i, (x_m, y_m, theta_rad, view) in enumerate(poses):
+        for j in (0, 1):
+            seen = view + (1000 * j if view != 7 else 0)
+            decisions += model.observe(observe(2 * i + j, 10.0 * i + j, x_m, seen, y_m, theta_rad))
+    decisions += model.finish()
+    assert [d.decision for d in decisions] == ["declared", "declared"]
+    arc = model.topological.arc("L1", "L2")
+    assert arc.distance_m == pytest.approx(3.0)
+    assert arc.path_m == pytest.approx(4.0 + 3.0 + 4.0)
+
+
+def test_the_way_driven_is_that_between_the_places_not_between_the_reflexes():
+    """With the oldest scan for an anchor a reflex fires one step after its place."""
+    late = PERCEPTION.model_copy(update={"anchor": "oldest"})
+    model = CognitiveModel(late, load_rulebook(find("productions", "landmark")), MEMORY)
+    for i, x_m in enumerate([0.0, 1.0, 10.0, 14.0]):
+        model.observe(observe(i, 10.0 * i, x_m, i))
+    model.finish()
+    assert model.topological.arc("L1", "L2").path_m == pytest.approx(10.0)
+
+
+def test_a_visit_is_counted_when_the_robot_comes_back_not_while_it_stays():
+    model = landmark_model()
+    decisions = tour(
+        model, [(0, 0, 0, 1), (0.1, 0, 0, 1), (0.2, 0, 0, 1), (9, 0, 0, 2), (0.1, 0, 0, 1)]
+    )
+    assert [d.landmark for d in decisions] == ["L1", "L1", "L1", "L2", "L1"]
+    assert {node.id: node.visits for node in model.topological.nodes} == {"L1": 2, "L2": 1}
+    assert len(model.declarative.references("L1")) == 4
+
+
+@pytest.mark.parametrize(("frame", "moved_m"), [("odometry", 1.0), ("corrected", 0.0)])
+def test_a_landmarks_place_follows_drift_and_only_drift(frame, moved_m):
+    drifting = MEMORY.model_copy(update={"place_sigma_m": 1.0, "place_drift": 0.1})
+    model = CognitiveModel(
+        PERCEPTION, load_rulebook(find("productions", "landmark")), drifting, frame=frame
+    )
+    # 100 m to the other landmark and back: odometry may be off by 20 m, a mark by 1 m.
+    (_, _, back) = tour(model, [(0, 0, 0, 1), (100, 0, 0, 2), (1.0, 0, 0, 1)])
+    assert back.landmark == "L1"
+    place = model.declarative["L1"].slots["place"]
+    travelled_m = 100.0 + 99.0
+    gain = (0.1 * travelled_m) ** 2 / ((0.1 * travelled_m) ** 2 + 1.0)
+    assert place.x_m == pytest.approx(gain * moved_m)
+    assert place.travelled_m == pytest.approx(travelled_m)
+
+
+def test_confidence_is_the_probability_of_the_retrievals_outcome():
+    noisy = MEMORY.model_copy(update={"activation_noise": 0.5, "retrieval_threshold": -2.0})
+    asked = []
+    model = CognitiveModel(
+        PERCEPTION, load_rulebook(find("productions", "landmark")), noisy, seed=3,
+        retrieved=lambda _, retrieval: asked.append(retrieval),
+    )  # fmt: skip
+    decisions = tour(model, [(0.2 * (i % 3), 0, 0, i % 2) for i in range(12)])
+    assert {d.decision for d in decisions} == {"declared", "recognised"}
+    for decision, retrieval in zip(decisions, asked, strict=True):
+        failure = 1.0
+        for row in retrieval.candidates.rows():
+            failure *= 1 - 1 / (1 + math.exp(-(row.total - row.noise + 2.0) / 0.5))
+        recognised = decision.decision == "recognised"
+        assert decision.confidence == pytest.approx(1 - failure if recognised else failure)
+        best = retrieval.candidates.best
+        assert decision.activation == (best.total if best else None)
+
+
+@pytest.mark.parametrize("rules", ["report", "landmark"])
+@pytest.mark.parametrize("step_s", [0.0125, 0.025, 0.05])
+def test_scans_may_come_at_the_very_moment_a_rule_fires(rules, step_s):
+    """A rule fires 50 ms after a reflex; what it does must be done before the next comes in."""
+    model = CognitiveModel(PERCEPTION, load_rulebook(find("productions", rules)), MEMORY)
+    decisions = []
+    for i in range(200):
+        decisions += model.observe(observe(i, step_s * i, 0.1 * i, i))
+    decisions += model.finish()
+    assert sorted(d.event for d in decisions) == list(range(100))
+
+
+def test_a_retrieval_may_take_minutes():
+    slow = MEMORY.model_copy(update={"retrieval_threshold": -13.0})
+    model = CognitiveModel(PERCEPTION, load_rulebook(find("productions", "landmark")), slow)
+    (decision,) = drive(model, [(0.0, 1)])
+    assert decision.decided_s == pytest.approx(1.1 + 0.001 * math.exp(13.0), abs=1e-3)
 
 
 def test_recognising_strengthens_the_landmarks_chunk():
@@ -129,10 +238,10 @@ rules:
 """
 
 
-def odd_model(tmp_path, actions):
+def odd_model(tmp_path, actions, perception=PERCEPTION):
     path = tmp_path / "odd.yaml"
     path.write_text(RULES.format(actions="".join(f"      {line}\n" for line in actions)))
-    return CognitiveModel(PERCEPTION, load_rulebook(path), MEMORY)
+    return CognitiveModel(perception, load_rulebook(path), MEMORY)
 
 
 def test_a_reflex_that_was_attended_but_left_in_its_buffer_is_not_overwritten(tmp_path):
@@ -142,6 +251,19 @@ def test_a_reflex_that_was_attended_but_left_in_its_buffer_is_not_overwritten(tm
     # The first is decided, the second overwritten by the third, the third never attended to.
     assert [(d.event, d.decision) for d in decisions] == [(0, "declared"), (1, "overwritten")]
     assert model.decisions_pending == 1
+
+
+def test_a_reflex_overwritten_by_the_last_one_is_reported(tmp_path):
+    peaks = PERCEPTION.model_copy(update={"mark": "peak"})
+    model = odd_model(tmp_path, ["=g> isa task state done", "~orienting>"], peaks)
+    views = [1, 2, 3, 3, 4, 5, 6, 6, 7, 8]  # novel, bored, novel, bored, and novel at the end
+    decisions = []
+    for i, view in enumerate(views):
+        decisions += model.observe(observe(i, float(i), 0.0, view))
+    decisions += model.finish()
+    # The first was attended to for nothing, the last never.
+    assert [(d.event, d.decision) for d in decisions] == [(1, "overwritten")]
+    assert model.decisions_pending == 2
 
 
 @pytest.mark.parametrize(

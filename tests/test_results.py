@@ -147,6 +147,116 @@ def test_equal_runs_give_equal_bytes(results, tmp_path):
     assert {**again, "wall_clock": 0} == {**manifest, "wall_clock": 0}
 
 
+TINY_PERCEPTION = """\
+interval: 2
+advance: tumbling
+mark: every
+anchor: newest
+repair_window: 0
+sector_rule: maximum
+view_beams: 9
+"""
+TINY_MEMORY = """\
+retrieval_threshold: -6.5
+latency_factor: 0.001
+mismatch_penalty: 8.0
+place_sigma_m: 0.5
+place_drift: 0.0
+"""
+TINY_ROWS = {  # worked out by hand from the log below
+    # Reflex 0 at 1 s is attended in 50 ms, found unknown in 0.001 exp(6.5) = 0.665 s and declared in
+    # 50 ms. Reflex 2, back at the first place at 21 s: L1, stored at 1.815 s, has the base level
+    # ln (21.05 - 1.815)^-0.5 = -1.478314; the place is the same; the view is too; so is the sector.
+    "decisions.csv": [
+        "0,0,1,1,1.765,0,0,0.5,,,laser,1,left,unknown,declared,L1,declare,,1",
+        "0,1,3,11,11.765,3,4,0,,,laser,1,right,unknown,declared,L2,declare,{far},1",
+        "0,2,5,21,21.104,0,0,0.5,,,laser,1,left,unknown,recognised,L1,recognise,{near},1",
+    ],
+    # Permanence: base levels when the last production has fired, at 21.104 s.
+    "landmarks.csv": [
+        "0,L1,1,0,0,0.5,left,unknown,1,1,{both},2",
+        "0,L2,11,3,4,0,right,unknown,1,1,{one},1",
+    ],
+    "path.csv": [
+        "0,0,0,0,0.5,,,", "0,1,0,0,0.5,,,", "0,10,3,4,0,,,", "0,11,3,4,0,,,",
+        "0,20,0,0,0.5,,,", "0,21,0,0,0.5,,,",
+    ],
+}  # fmt: skip
+
+
+def test_a_tiny_log_gives_the_rows_worked_out_by_hand(tmp_path):
+    def scan(t_s, x, y, theta, peak):
+        ranges = [1.0] * 180
+        ranges[peak : peak + 12] = [5.0] * 12  # most of one part of the view
+        pose = f"{x} {y} {theta}"
+        return f"FLASER 180 {' '.join(map(str, ranges))} {pose} {pose} {t_s} host {t_s}\n"
+
+    log = tmp_path / "tiny.log"
+    log.write_text(
+        scan(0, 0, 0, 0.5, 84) + scan(1, 0, 0, 0.5, 144)
+        + scan(10, 3, 4, 0.0, 84) + scan(11, 3, 4, 0.0, 24)
+        + scan(20, 0, 0, 0.5, 84) + scan(21, 0, 0, 0.5, 144)
+    )  # fmt: skip
+    (tmp_path / "p.yaml").write_text(TINY_PERCEPTION)
+    (tmp_path / "m.yaml").write_text(TINY_MEMORY)
+    out = tmp_path / "out"
+    manifest = run_scenario(
+        scenario(log, perception=str(tmp_path / "p.yaml"), memory=str(tmp_path / "m.yaml")), out
+    )
+
+    def level(t_s, *references_s):
+        return math.log(sum(max(t_s - r, 0.05) ** -0.5 for r in references_s))
+
+    stored = 1.815, 11.815
+    last_s = 21.104
+    views = 8.0 * -0.125  # two views that do not correlate
+    far = level(11.05, stored[0]) + 8 * (math.exp(-(5.0**2) / (2 * 0.5**2)) - 1) + views - 1.0
+    values = {
+        "far": far,
+        "near": level(21.05, stored[0]),
+        "both": level(last_s, stored[0], last_s),
+        "one": level(last_s, stored[1]),
+    }
+    for name, expected in TINY_ROWS.items():
+        lines = (out / name).read_text().splitlines()[1:]
+        assert len(lines) == len(expected)
+        for line, row in zip(lines, expected, strict=True):
+            for cell, wanted in zip(line.split(","), row.split(","), strict=True):
+                if wanted.startswith("{"):
+                    assert float(cell) == pytest.approx(values[wanted[1:-1]], abs=2e-3), line
+                elif wanted.replace(".", "").isdigit():
+                    assert float(cell) == pytest.approx(float(wanted), abs=2e-3), line
+                else:
+                    assert cell == wanted, line
+    (entry,) = manifest["runs"]
+    assert entry["duration_s"] == 21.0
+    assert entry["path_length_m"] == 10.0
+    assert entry["undecided"] == 0
+    assert entry["decisions"] == {"declared": 2, "recognised": 1}
+    figures = json.loads((out / "figures" / "run-000.json").read_text())
+    levels = figures["activation"]["base_level"]["L2"]
+    times = figures["activation"]["t_s"]
+    assert all((level is None) == (t_s < 11.815) for level, t_s in zip(levels, times, strict=True))
+    arcs = load_topology(out / "topology" / "run-000.json").arcs
+    assert [(arc.from_id, arc.to_id, arc.distance_m, arc.path_m) for arc in arcs] == [
+        ("L1", "L2", 5.0, 5.0), ("L2", "L1", 5.0, 5.0),
+    ]  # fmt: skip
+    assert arcs[0].bearing_rad == pytest.approx(math.atan2(4, 3) - 0.5, abs=1e-5)
+
+
+def test_what_was_left_undecided_is_said(tmp_path):
+    rules = folder("productions") / "report.yaml"
+    deaf = tmp_path / "deaf.yaml"
+    deaf.write_text(
+        rules.read_text().replace(
+            "      =orienting>", "      ?orienting>\n          novelty_above 2\n      =orienting>"
+        )
+    )
+    manifest = run_scenario(scenario(productions=str(deaf)), tmp_path / "out")
+    assert manifest["runs"][0]["undecided"] == 1
+    assert any("1 reflexes were still undecided" in text for text in manifest["warnings"])
+
+
 def test_resume_keeps_finished_runs_and_does_the_rest(results, tmp_path, monkeypatch):
     out = tmp_path / "out"
     calls = []
@@ -169,7 +279,9 @@ def test_resume_keeps_finished_runs_and_does_the_rest(results, tmp_path, monkeyp
     assert calls == []
 
 
-def test_resuming_with_other_settings_is_refused(tmp_path):
+def test_resuming_with_other_settings_is_refused(tmp_path, results):
+    with pytest.raises(ResultsError, match="made from other settings"):
+        run_scenario(scenario(runs=2, seed=8), results[0], resume=True)
     out = tmp_path / "out"
 
     def interrupt(run, _):
@@ -217,6 +329,7 @@ def test_a_killed_run_leaves_no_half_written_table(tmp_path):
 
 def test_a_folder_with_other_files_is_left_alone(tmp_path):
     (tmp_path / "thesis.tex").write_text("dear to me")
+    (tmp_path / ".DS_Store").write_text("hidden files are nobody's results")
     with pytest.raises(ResultsError, match=r"holds 'thesis\.tex', which is no result"):
         run_scenario(scenario(), tmp_path)
     assert (tmp_path / "thesis.tex").read_text() == "dear to me"
@@ -240,7 +353,13 @@ def test_a_log_that_stops_the_run_leaves_nothing_behind(tmp_path):
 
 @pytest.mark.parametrize(
     ("text", "said"),
-    [("", "is damaged"), ("{}", "is not a results manifest"), ("[]", "is not a results manifest")],
+    [
+        ("", "is damaged"),
+        ("{}", "is not a results manifest"),
+        ("[]", "is not a results manifest"),
+        ('{"format": "ssrics-results"}', "is not a results manifest"),
+        ('{"format": "ssrics-results", "version": "1"}', "is not a results manifest"),
+    ],
 )
 def test_a_damaged_manifest_is_one_clear_line(tmp_path, text, said):
     (tmp_path / "manifest.json").write_text(text)

@@ -30,7 +30,9 @@ class MemoryProfile(MemoryParameters):
 
     title: str = ""
     source: str = ""
-    source_activation: dict[Literal["g", "imaginal"], float] = {"imaginal": 1.0}  # type: ignore[assignment]
+    source_activation: dict[Literal["g", "imaginal"], float] = Field(  # type: ignore[assignment]
+        default={"imaginal": 1.0}
+    )
     sector_difference: Annotated[float, Field(le=0)] = -0.125
     view_difference: Annotated[float, Field(le=0)] = -0.125
     place_sigma_m: Annotated[float, Field(gt=0)] = 1.0
