@@ -14,8 +14,13 @@ from ssrics_like.library import folder
 def main() -> None:
     """Print every decision when it is made, and the landmarks at the end."""
     log = sys.argv[1] if len(sys.argv) > 1 else folder("scenarios") / "logs" / "demo.log.gz"
+    source = open_log(log)
     model = CognitiveModel(
-        load_perception("human-like"), load_productions("landmark"), load_memory("act-r"), seed=1
+        load_perception("human-like"),
+        load_productions("landmark"),
+        load_memory("act-r"),
+        seed=1,
+        frame=source.frame,
     )
 
     def tell(decisions: list) -> None:
@@ -25,7 +30,7 @@ def main() -> None:
                 f"at {d.pose.x_m:6.2f}, {d.pose.y_m:5.2f} m  {d.sector:<5} by rule '{d.rule}'"
             )
 
-    for observation in open_log(log):
+    for observation in source:
         tell(model.observe(observation))
     tell(model.finish())
 

@@ -230,6 +230,6 @@ def test_ctrl_c_ends_with_status_130_and_one_line(tmp_path):
     _, complained = process.communicate(timeout=60)
     assert process.returncode == 130
     assert complained.splitlines() == [
-        "ssrics: interrupted; finished runs are kept, --resume goes on from them"
+        f"ssrics: interrupted: finished runs are kept in {tmp_path / 'out'}; --resume goes on"
     ]
     assert Path(tmp_path / "out" / "decisions.csv").is_file()

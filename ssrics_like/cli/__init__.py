@@ -52,8 +52,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except SsricsError as error:
         _complain(str(error))
         status = USER_ERROR
-    except KeyboardInterrupt:
-        _complain("interrupted; finished runs are kept, --resume goes on from them")
+    except KeyboardInterrupt as stop:
+        _complain(": ".join(["interrupted", *map(str, stop.args)]))
         status = INTERRUPTED
     except BrokenPipeError:
         # Whoever read our output has enough, as `ssrics list | head` does.

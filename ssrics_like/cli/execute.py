@@ -17,12 +17,19 @@ def execute(resolved: Resolved, out: Path, *, resume: bool, quiet: bool) -> None
     bar = _bar(quiet=quiet)
     with bar:
         task = bar.add_task(resolved.log.name, total=resolved.scenario.runs)
-        manifest = run_scenario(
-            resolved,
-            out,
-            resume=resume,
-            progress=lambda run, share: bar.update(task, completed=run + share),
-        )
+        try:
+            manifest = run_scenario(
+                resolved,
+                out,
+                resume=resume,
+                progress=lambda run, share: bar.update(task, completed=run + share),
+            )
+        except KeyboardInterrupt:
+            if out.is_dir():
+                raise KeyboardInterrupt(
+                    f"finished runs are kept in {out}; --resume goes on"
+                ) from None
+            raise
     from ssrics_like.report import write_report
 
     page = write_report(out)

@@ -71,8 +71,8 @@ def draw_novelty(results: Results) -> Drawing | None:
         f"Novelty (1 minus the boredom quotient τ) of each interval of {interval} scans: the line "
         "is the mean, the band reaches from the least to the largest where several intervals share "
         "a pixel. An interval is novel where it reaches the dashed line (τ at most "
-        f"{fraction_text(1.0 - threshold)}). Each tick below is a reflex, at the moment perceived, "
-        "in the row of what was decided about it.",
+        f"{fraction_text(1.0 - threshold)}). The line is drawn at an interval's last scan; each "
+        "tick below is a reflex at its own moment, in the row of what was decided about it.",
     )
 
 
