@@ -40,8 +40,12 @@ LAP_S = 60.0
 LONGEST_TRACE = 500  # reflexes; the report reads no further
 SECTORS = ("left", "front", "right")
 RULES = {
-    "attend": "=g>\nisa task\nstate watch\n==>\n=g>\nisa task\nstate recall\n~orienting>\n",
-    "declare": "=g>\nisa task\nstate recall\n==>\n=g>\nisa task\nstate watch\n",
+    "attend": {
+        "why": "Something <novel>.",
+        "utility": 0,
+        "rule": "=g>\nisa task\n==>\n~orienting>\n",
+    },
+    "declare": {"why": "A new place.", "utility": 0, "rule": "=g>\nisa task\n==>\n~g>\n"},
 }
 
 
@@ -59,7 +63,7 @@ def events(number: int, t_s: float, *, landmark: str, found: bool) -> list[dict[
         (0.0, "orienting", "set-buffer-chunk", "orienting", chunk),
         (0.0, "procedural", "production-selected", "attend", None),
         (0.05, "procedural", "production-fired", "attend", None),
-        (0.05, "procedural", "mod-buffer-chunk", "g", None),
+        (0.05, "procedural", "mod-buffer-chunk", "g", {"isa": "task", "state": "recall"}),
         (0.05, "procedural", "clear-buffer", "orienting", None),
         (0.05, "declarative", "start-retrieval", "", None),
         (0.25, "declarative", answer, "", None),
@@ -70,7 +74,7 @@ def events(number: int, t_s: float, *, landmark: str, found: bool) -> list[dict[
     rows += [
         (0.25, "procedural", "production-selected", "declare", None),
         (0.3, "procedural", "production-fired", "declare", None),
-        (0.3, "procedural", "mod-buffer-chunk", "g", None),
+        (0.3, "procedural", "mod-buffer-chunk", "g", {"isa": "task", "state": "watch"}),
     ]
     return [
         {"t_s": t_s + dt, "module": module, "action": action, "name": name}
@@ -442,7 +446,7 @@ def test_the_timeline_shows_the_first_of_each_decision():
 def test_spans_follow_from_the_trace():
     goal = {"t_s": 0.0, "module": "goal", "action": "set-buffer-chunk", "name": "g",
             "chunk": {"isa": "task", "state": "watch"}}  # fmt: skip
-    spans = spans_of([goal, *events(0, 1.0, landmark="L1", found=False)], RULES)
+    spans = spans_of([goal, *events(0, 1.0, landmark="L1", found=False)])
     found = {(s.lane, s.start_s, round(s.end_s, 3), s.kind, s.label) for s in spans}
     assert found == {
         ("g", 0.0, 1.05, "full", "watch"),

@@ -136,14 +136,12 @@ def _landmark_row(index: int, mark: Landmark) -> dict[str, Any]:
 
 
 def _rules(run: Run, rules: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Return each production: its why where the manifest has it, its text, what it decided."""
+    """Return each production: why it is there, its text, how much it decided."""
     by_rule = Counter(reflex.rule for reflex in run.reflexes)
-    found = []
-    for name, rule in rules.items():
-        why = str(rule.get("why", "")) if isinstance(rule, dict) else ""
-        text = str(rule["rule"] if isinstance(rule, dict) else rule)
-        found.append({"name": name, "why": why, "text": text, "decided": by_rule[name]})
-    return found
+    return [
+        {"name": name, "why": rule["why"], "text": rule["rule"], "decided": by_rule[name]}
+        for name, rule in rules.items()
+    ]
 
 
 def _settings(kind: str, profile: Mapping[str, Any]) -> dict[str, Any]:

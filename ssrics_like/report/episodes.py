@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -57,7 +57,7 @@ def chosen(reflexes: tuple[Reflex, ...], count: int = EPISODES_MAX) -> list[Refl
     return sorted(picked, key=lambda r: r.decided_s)
 
 
-def read_episodes(folder: Path, run: Run, rules: Mapping[str, str]) -> list[Episode]:
+def read_episodes(folder: Path, run: Run) -> list[Episode]:
     """Read the chosen reflexes' part of a run's trace.
 
     Parameters
@@ -66,8 +66,6 @@ def read_episodes(folder: Path, run: Run, rules: Mapping[str, str]) -> list[Epis
         The results folder.
     run : Run
         The run.
-    rules : mapping of str to str
-        Name -> text of each production.
 
     Returns
     -------
@@ -84,7 +82,7 @@ def read_episodes(folder: Path, run: Run, rules: Mapping[str, str]) -> list[Epis
         return []
     last_s = run.start_s + wanted[-1].decided_s + AFTER_S
     events = list(_events(folder / "trace" / f"{run.name}.jsonl", last_s))
-    spans = spans_of(events, rules)
+    spans = spans_of(events)
     arrivals = {
         str(event["chunk"].get("event")): float(event["t_s"])
         for event in events

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ssrics_like.productions.syntax import RuleSyntaxError, RuleText, parse_rule
 from ssrics_like.report.words import seen_text
 
 PRODUCTIONS = "productions"
@@ -44,7 +43,6 @@ class _Lane:
 
     def __init__(self, name: str, spans: list[Span]) -> None:
         self.name = name
-        self.slots: dict[str, str] = {}
         self._spans = spans
         self._open: tuple[float, str, str] | None = None
 
@@ -60,26 +58,21 @@ class _Lane:
             self._open = None
 
 
-def spans_of(events: Iterable[Mapping[str, Any]], rules: Mapping[str, str]) -> list[Span]:
+def spans_of(events: Iterable[Mapping[str, Any]]) -> list[Span]:
     """Work out the spans of every lane.
 
     Parameters
     ----------
     events : iterable of mapping
         Events of a trace in order: t_s, module, action, name and perhaps chunk.
-    rules : mapping of str to str
-        Name -> text of each production: says what a production made of the goal, which the
-        trace does not.
 
     Returns
     -------
     list of Span
         In the order in which they end.
     """
-    changes = {name: _constants(text) for name, text in rules.items()}
     spans: list[Span] = []
     lanes: dict[str, _Lane] = {}
-    fired = ""
 
     def lane(name: str) -> _Lane:
         return lanes.setdefault(name, _Lane(name, spans))
@@ -87,16 +80,9 @@ def spans_of(events: Iterable[Mapping[str, Any]], rules: Mapping[str, str]) -> l
     for event in events:
         t_s, action, name = float(event["t_s"]), str(event["action"]), str(event["name"])
         chunk = event.get("chunk")
-        if action.startswith("set-buffer-chunk"):
-            buffer = lane(name)
-            buffer.slots = {str(k): str(v) for k, v in (chunk or {}).items() if k != "isa"}
-            buffer.begin(t_s, FULL, _name(name, buffer.slots))
-        elif action == "mod-buffer-chunk":
-            buffer = lane(name)
-            buffer.slots |= changes.get(fired, {}).get(name, {})
-            if chunk:
-                buffer.slots |= {str(k): str(v) for k, v in chunk.items() if k != "isa"}
-            buffer.begin(t_s, FULL, _name(name, buffer.slots))
+        if action.startswith("set-buffer-chunk") or action == "mod-buffer-chunk":
+            slots = {str(k): str(v) for k, v in (chunk or {}).items() if k != "isa"}
+            lane(name).begin(t_s, FULL, _name(name, slots))
         elif action == "clear-buffer":
             lane(name).end(t_s)
         elif action == "start-retrieval":
@@ -106,26 +92,12 @@ def spans_of(events: Iterable[Mapping[str, Any]], rules: Mapping[str, str]) -> l
         elif action == "production-selected":
             lane(PRODUCTIONS).begin(t_s, FIRED, name)
         elif action == "production-fired":
-            fired = name
             lane(PRODUCTIONS).end(t_s)
         elif action == "production-stopped":
             lane(PRODUCTIONS).end(t_s, kind=STOPPED)
     for buffer in lanes.values():
         buffer.end(float("inf"))
     return spans
-
-
-def _constants(text: str) -> dict[str, dict[str, str]]:
-    """Return, for each buffer that a rule changes, the slots that it sets to a fixed word."""
-    try:
-        rule: RuleText = parse_rule(text)
-    except RuleSyntaxError:
-        return {}  # written by another version, whose rules this one cannot read
-    return {
-        clause.buffer: {p.slot: p.word for p in clause.pairs if not p.variable and p.slot != "isa"}
-        for clause in rule.actions
-        if clause.sign == "="
-    }
 
 
 def _name(buffer: str, slots: Mapping[str, str]) -> str:

@@ -35,8 +35,7 @@ _LOOKS: dict[str, dict[str, Any]] = {
 def draw_timeline(results: Results) -> Drawing | None:
     """Draw the first interesting reflexes below each other; None where none was decided."""
     run = results.shown
-    rules = results.scenario["productions"]["rules"]
-    episodes = read_episodes(results.folder, run, {k: rule_text(v) for k, v in rules.items()})
+    episodes = read_episodes(results.folder, run)
     if not episodes:
         return None
     lanes = [lane for lane in LANES if any(s.lane == lane for e in episodes for s in e.spans)]
@@ -65,11 +64,6 @@ def draw_timeline(results: Results) -> Drawing | None:
         f"{listed}; zero is when its chunk entered the orienting buffer, and a strip ends shortly "
         "after the decision.",
     )
-
-
-def rule_text(rule: object) -> str:
-    """Return a production's text from its entry in the manifest, with or without its why."""
-    return str(rule["rule"] if isinstance(rule, dict) else rule)
 
 
 def _strip(axes: Axes, episode: Episode, lanes: list[str]) -> None:

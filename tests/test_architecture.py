@@ -1,0 +1,71 @@
+"""Imports point inward only, and foreign engines are touched where that is said."""
+
+import ast
+from pathlib import Path
+
+PACKAGE = Path(__file__).parents[1] / "ssrics_like"
+MIND = ("perception", "productions", "memory")
+INNER = {  # layer -> the layers of the package that it may use, itself aside
+    "perception": {"errors"},
+    "memory": {"errors"},
+    "productions": {"errors", "settings"},
+    "sources": {"errors", "perception"},
+    "modules": {"errors", "decision", *MIND},
+    "model": {"errors", "decision", "modules", *MIND},
+    "results": {"errors", "decision", "model", *MIND},
+    "scenarios": {"errors", "library", "settings", "model", "results", "sources", *MIND},
+    "report": {"errors", "memory", "results"},
+}
+
+
+def imports(path):
+    """Names of the modules that a file imports, anywhere in it."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: relative import"
+            yield node.module
+            if node.module == "ssrics_like":
+                yield from (f"ssrics_like.{alias.name}" for alias in node.names)
+
+
+def layer(path):
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+
+
+def test_imports_point_inward_only():
+    for path in PACKAGE.rglob("*.py"):
+        allowed = INNER.get(layer(path))
+        if allowed is None:
+            continue
+        for name in imports(path):
+            parts = name.split(".")
+            if parts[0] == "ssrics_like" and len(parts) > 1 and parts[1] != layer(path):
+                assert parts[1] in allowed, f"{path.relative_to(PACKAGE)} imports {name}"
+
+
+def test_each_foreign_engine_has_its_own_files():
+    homes = {
+        "numba": {"perception/compiling.py"},
+        "pyactr": {"productions/engine.py", "productions/buffers.py"},
+        "networkx": {"memory/topological.py", "memory/store.py"},
+        "cyclopts": {"cli/__init__.py", "cli/options.py"},
+    }
+    for path in PACKAGE.rglob("*.py"):
+        here = str(path.relative_to(PACKAGE))
+        for name in imports(path):
+            top = name.split(".")[0]
+            if top in homes:
+                assert here in homes[top], f"{here} imports {name}"
+
+
+def test_the_mind_prints_nothing_and_opens_no_files():
+    for kind in ("perception", "memory"):
+        for path in (PACKAGE / kind).glob("*.py"):
+            calls = {
+                node.func.id
+                for node in ast.walk(ast.parse(path.read_text()))
+                if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+            }
+            assert not calls & {"print", "open", "input"}, path.name
