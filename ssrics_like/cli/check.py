@@ -20,6 +20,7 @@ def check(*files: Path) -> int:
     files
         The files.
     """
+    from ssrics_like.cli.execute import progress_bar
     from ssrics_like.errors import SsricsError, choices
     from ssrics_like.scenarios.checking import KINDS, check_file
 
@@ -28,7 +29,10 @@ def check(*files: Path) -> int:
     wrong = 0
     for path in files:
         try:
-            print(f"{path}: ok: {check_file(path)}")
+            with progress_bar(quiet=False) as bar:
+                task = bar.add_task(path.name, total=1.0)
+                said = check_file(path, lambda share: bar.update(task, completed=share))  # noqa: B023
+            print(f"{path}: ok: {said}")
         except SsricsError as error:
             wrong += 1
             for line in str(error).splitlines():

@@ -14,7 +14,7 @@ def execute(resolved: Resolved, out: Path, *, resume: bool, quiet: bool) -> None
     """Carry a scenario out and report on it."""
     from ssrics_like.scenarios.runner import run_scenario
 
-    bar = _bar(quiet=quiet)
+    bar = progress_bar(quiet=quiet)
     with bar:
         task = bar.add_task(resolved.log.name, total=resolved.scenario.runs)
         try:
@@ -39,7 +39,7 @@ def execute(resolved: Resolved, out: Path, *, resume: bool, quiet: bool) -> None
         print(f"report: {page}")
 
 
-def _bar(*, quiet: bool) -> Any:
+def progress_bar(*, quiet: bool) -> Any:
     """Make a progress bar; it stays silent when nobody watches."""
     from rich.console import Console
     from rich.progress import Progress

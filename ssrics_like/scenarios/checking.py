@@ -19,8 +19,15 @@ from ssrics_like.scenarios.schema import Scenario, load_scenario, resolve
 from ssrics_like.sources import open_log
 
 
-def check_file(path: Path) -> str:
+def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -> str:
     """Check one file or results folder and say in a line what it is.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    progress : callable
+        Called now and then with the share of a log that has been read.
 
     Raises
     ------
@@ -32,8 +39,8 @@ def check_file(path: Path) -> str:
         return f"results of {len(manifest['runs'])} run(s), frame {manifest['frame']}"
     if path.suffix in SUFFIXES:
         kind = _kind(path)
-        return f"{kind}, {KINDS[kind](path)}"
-    return _log(path)
+        return f"{kind}, {YAML_KINDS[kind](path)}"
+    return _log(path, progress)
 
 
 def _kind(path: Path) -> str:
@@ -69,9 +76,12 @@ def _profile(kind: type[PerceptionProfile | MemoryProfile]) -> Callable[[Path], 
     return check
 
 
-def _log(path: Path) -> str:
+def _log(path: Path, progress: Callable[[float], None]) -> str:
     source = open_log(path)
-    scans = sum(1 for _ in source)
+    scans = 0
+    for scans, _ in enumerate(source, 1):
+        if scans % PROGRESS_EVERY == 0:
+            progress(source.progress)
     said = "; ".join(source.report.warnings())
     what = f"{source.format} log, {scans} scans, frame {source.frame}"
     return f"{what}; {said}" if said else what
@@ -98,10 +108,11 @@ def json_schema(kind: str) -> dict[str, Any]:
     return models[kind].model_json_schema()
 
 
-KINDS: dict[str, Callable[[Path], str]] = {
+YAML_KINDS: dict[str, Callable[[Path], str]] = {
     "rule set": _rules,
     "scenario": _scenario,
     "perception profile": _profile(PerceptionProfile),
     "memory profile": _profile(MemoryProfile),
-    "log": _log,
 }
+KINDS = (*YAML_KINDS, "log", "results folder")
+PROGRESS_EVERY = 256  # scans
