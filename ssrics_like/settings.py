@@ -33,6 +33,7 @@ _Loader.add_implicit_resolver(
     list("-+0123456789"),
 )
 Settings = TypeVar("Settings", bound=BaseModel)
+VALUES_MAX = 100_000  # in one file; aliases can make billions out of a few lines
 
 
 @dataclass(frozen=True)
@@ -93,10 +94,13 @@ def read_document(path: Path) -> Document:
     except IsADirectoryError:
         raise SettingsError(f"{path}: is a folder, expected a YAML file") from None
     except (OSError, UnicodeDecodeError) as e:
-        raise SettingsError(f"{path}: cannot be read as text ({e.__class__.__name__})") from None
+        why = e.strerror if isinstance(e, OSError) else "it is not UTF-8"
+        raise SettingsError(f"{path}: cannot be read as text ({why})") from None
     try:
         loader = _Loader(text)
         root = loader.get_single_node()
+    except RecursionError:
+        raise SettingsError(f"{path}: is nested too deeply") from None
     except yaml.MarkedYAMLError as e:
         mark = e.problem_mark or e.context_mark
         place = f":{mark.line + 1}:{mark.column + 1}" if mark else ""
@@ -118,6 +122,8 @@ def _plain(node: Any, at: Key, doc: Document, loader: Any, above: tuple[int, ...
     """Turn a node into plain values, noting marks and keys that stand twice."""
     if id(node) in above:
         raise SettingsError(f"{doc.where(at)}: the value contains itself")
+    if len(doc.marks) > VALUES_MAX:
+        raise SettingsError(f"{doc.path}: holds more than {VALUES_MAX} values")
     if isinstance(node, yaml.SequenceNode):
         items = []
         for i, child in enumerate(node.value):
@@ -186,9 +192,15 @@ def explain(kind: type[BaseModel], error: ValidationError, data: Any) -> list[tu
     """Say each of pydantic's complaints in one line: key, value, expectation, nearest name."""
     lines: list[tuple[Key, str]] = []
     mistyped: dict[Key, list[str]] = {}
+    places = {tuple(item["loc"]) for item in error.errors()}
     for item in error.errors():
         where = _in_data(tuple(item["loc"]), data)
-        key = ".".join(str(part) for part in item["loc"]) or "the file"
+        key = ".".join(str(part) for part in item["loc"])
+        depth = len(item["loc"])
+        if item["type"] == "too_short" and any(
+            len(at) > depth and at[:depth] == item["loc"] for at in places
+        ):
+            continue  # the items are there, but they have complaints of their own
         if item["type"] == "extra_forbidden":
             known = fields_at(kind, where[:-1])
             lines.append((where, f"unknown key '{key}'{_hint(str(where[-1]), known)}"))
@@ -200,7 +212,8 @@ def explain(kind: type[BaseModel], error: ValidationError, data: Any) -> list[tu
             lines.append((where, f"key '{key}' is missing"))
         elif item["type"].endswith(("_type", "_parsing")) or item["type"] == "literal_error":
             expected = item["msg"].removeprefix("Input should be ").partition(", unable")[0]
-            mistyped.setdefault(where, []).append(expected)
+            expected = expected.partition(" or instance of")[0]
+            mistyped.setdefault(where, []).append(_PLAIN_WORDS.get(expected, expected))
         else:
             key = ".".join(str(part) for part in where)
             said = item["msg"].removeprefix("Input should be ")
@@ -218,6 +231,18 @@ def explain(kind: type[BaseModel], error: ValidationError, data: Any) -> list[tu
         key = ".".join(str(part) for part in where)
         lines.append((where, f"{key}: {_shown(value)} where {wanted} was expected{hint}"))
     return lines
+
+
+_PLAIN_WORDS = {
+    "a valid tuple": "a list",
+    "a valid list": "a list",
+    "a valid dictionary": "keys and values",
+    "a valid string": "text",
+    "a valid number": "a number",
+    "a valid integer": "a whole number",
+    "a valid boolean": "true or false",
+}
+"""pydantic's words for a kind of value -> those of this project."""
 
 
 def _in_data(at: Key, data: Any) -> Key:
@@ -334,7 +359,7 @@ def parse_override(text: str) -> tuple[str, Any]:
         There is no ``=``, no key, or the value is not YAML.
     """
     key, equals, value = text.partition("=")
-    if not equals or not key.strip():
+    if not equals or not key.strip() or not value.strip():
         raise SettingsError(f"--set {text}: expected key=value, for example memory.decay=0.3")
     try:
         return key.strip(), yaml.load(value, _Loader)  # noqa: S506 - a SafeLoader

@@ -96,9 +96,9 @@ def test_a_scenario_of_the_library_runs_by_name(capsys, tmp_path):
         (["replay", DEMO, "--set", "productions.rules=1"], "unknown key 'rules'"),
         (
             ["replay", DEMO, "--set", "memory.optimized_learning=maybe"],
-            "boolean or a valid integer",
+            "true or false or a whole number",
         ),
-        (["replay", DEMO, "--set", "memory.decay=yes"], "True where a valid number"),
+        (["replay", DEMO, "--set", "memory.decay=yes"], "True where a number"),
         (
             ["replay", DEMO, "--set", "memory.source_activation={imagnal: 1}"],
             "did you mean 'imaginal'?",
@@ -187,7 +187,7 @@ def test_every_entry_of_the_library_is_listed_shown_and_checked(capsys):
             assert f"  {path.stem} " in listed
             assert run(capsys, "check", path)[0] == 0
             _, shown, _ = run(capsys, "show", kind, path.stem)
-            assert shown == f"# {path}\n{path.read_text()}"
+            assert shown == f"# from the library of ssrics: {kind}/{path.name}\n{path.read_text()}"
 
 
 def test_help_shows_examples_and_imports_nothing_heavy():

@@ -182,6 +182,15 @@ def test_landmark_rules_ask_memory_with_everything_perceived():
     assert stored_s == pytest.approx(request.t_s + 0.05)
 
 
+def test_a_variable_may_be_called_like_a_buffer():
+    trace = []
+    engine, _, _ = make("landmark", trace=trace.append)
+    engine.push("orienting", reflex(0, "left"), 1.0)
+    engine.settle()
+    goals = [e.chunk["last"] for e in trace if e.action == "mod-buffer-chunk" and e.name == "g"]
+    assert goals == ["none", "none", "L1"]
+
+
 def test_a_reflex_that_nobody_attended_is_handed_back_when_overwritten():
     engine, marks, _ = make("landmark", NoMemory(latency_s=1.0))
     assert engine.push("orienting", reflex(0, "left"), 1.0) is None

@@ -249,7 +249,7 @@ def test_what_was_left_undecided_is_said(tmp_path):
     deaf = tmp_path / "deaf.yaml"
     deaf.write_text(
         rules.read_text().replace(
-            "      =orienting>", "      ?orienting>\n          novelty_above 2\n      =orienting>"
+            "      =orienting>", "      ?orienting>\n          novelty_above 1\n      =orienting>"
         )
     )
     manifest = run_scenario(scenario(productions=str(deaf)), tmp_path / "out")
@@ -327,15 +327,63 @@ def test_a_killed_run_leaves_no_half_written_table(tmp_path):
         assert all(None not in row.values() for row in rows(out / name))
 
 
-def test_a_folder_with_other_files_is_left_alone(tmp_path):
-    (tmp_path / "thesis.tex").write_text("dear to me")
-    (tmp_path / ".DS_Store").write_text("hidden files are nobody's results")
-    with pytest.raises(ResultsError, match=r"holds 'thesis\.tex', which is no result"):
+def test_files_of_others_in_the_folder_are_left_alone(tmp_path):
+    kept = [tmp_path / "thesis.tex", tmp_path / ".DS_Store", tmp_path / "other" / "decisions.csv"]
+    (tmp_path / "other").mkdir()
+    for path in kept:
+        path.write_text("dear to me")
+    run_scenario(scenario(), tmp_path)
+    mine = [tmp_path / "figures" / "mine.png", tmp_path / "trace" / "notes.txt"]
+    for path in mine:
+        path.write_text("dear to me")
+    run_scenario(scenario(seed=8), tmp_path)
+    assert all(path.read_text() == "dear to me" for path in [*kept, *mine])
+
+
+def test_a_file_with_the_name_of_a_result_is_not_overwritten(tmp_path):
+    (tmp_path / "path.csv").write_text("dear to me")
+    with pytest.raises(ResultsError, match=r"holds 'path\.csv' but no manifest\.json"):
         run_scenario(scenario(), tmp_path)
-    assert (tmp_path / "thesis.tex").read_text() == "dear to me"
+    assert [path.name for path in tmp_path.iterdir()] == ["path.csv"]
     (tmp_path / "file").write_text("")
     with pytest.raises(ResultsError, match="is a file, expected a folder"):
         ResultsFolder(tmp_path / "file")
+
+
+def test_two_commands_cannot_write_to_one_folder(tmp_path):
+    with (
+        ResultsFolder(tmp_path / "out"),
+        pytest.raises(ResultsError, match="another ssrics is writing to it"),
+    ):
+        run_scenario(scenario(), tmp_path / "out")
+    run_scenario(scenario(), tmp_path / "out")
+    assert not (tmp_path / "out" / ".lock").exists()
+
+
+def test_more_runs_can_be_added_to_unfinished_ones(tmp_path, results):
+    out = tmp_path / "out"
+
+    def interrupt(run, _):
+        if run == 1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_scenario(scenario(runs=3), out, progress=interrupt)
+    run_scenario(scenario(runs=2), out, resume=True)
+    assert files(out) == files(results[0])
+
+
+def test_a_robot_that_jumps_and_a_log_too_short_are_said(tmp_path):
+    lines = gzip.decompress(DEMO.read_bytes()).decode().splitlines()
+    at = [i for i, line in enumerate(lines) if line.startswith("FLASER")][200]
+    words = lines[at].split()
+    words[182:188] = ["100", "100", "0"] * 2
+    (tmp_path / "jump.log").write_text("\n".join([*lines[:at], " ".join(words), *lines[at + 1 :]]))
+    manifest = run_scenario(scenario(tmp_path / "jump.log"), tmp_path / "out")
+    assert any("pose jumped 2 times" in text for text in manifest["warnings"])
+    (tmp_path / "short.log").write_text("\n".join(lines[:15]) + "\n")
+    manifest = run_scenario(scenario(tmp_path / "short.log"), tmp_path / "short")
+    assert any("fewer than one interval of 20" in text for text in manifest["warnings"])
 
 
 def test_a_log_that_stops_the_run_leaves_nothing_behind(tmp_path):

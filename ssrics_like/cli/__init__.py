@@ -44,22 +44,37 @@ app.command(schema.schema, help_epilogue="")
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit; a user's error is one line a problem, and status 1."""
+    _prepare_streams()
     try:
         status = app(arguments, exit_on_error=False, print_error=False)
+        sys.stdout.flush()
     except CycloptsError as error:
         _complain(" ".join(str(error).split()) + " (see ssrics --help)")
         status = USER_ERROR
     except SsricsError as error:
         _complain(str(error))
         status = USER_ERROR
-    except KeyboardInterrupt as stop:
-        _complain(": ".join(["interrupted", *map(str, stop.args)]))
-        status = INTERRUPTED
     except BrokenPipeError:
         # Whoever read our output has enough, as `ssrics list | head` does.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         status = 0
+    except OSError as error:  # the disk is full, a file may not be read: nothing we can mend
+        _complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+        status = USER_ERROR
+    except KeyboardInterrupt as stop:
+        _complain(": ".join(["interrupted", *map(str, stop.args)]))
+        status = INTERRUPTED
     sys.exit(status or 0)
+
+
+def _prepare_streams() -> None:
+    """See to it that messages can be written, whatever the terminal's encoding, even to none."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by the caller, as by `2>&-`
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115, PTH123
+        elif hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _complain(text: str) -> None:

@@ -29,7 +29,7 @@ def list_entries(kind: str | None = None) -> None:
 
 
 def show(kind: str, name: str) -> None:
-    """Print an entry of the library: where it stands and what it says.
+    """Print an entry of the library.
 
     For example:
 
@@ -46,5 +46,5 @@ def show(kind: str, name: str) -> None:
     from ssrics_like import library
 
     path = library.find(kind, name)
-    print(f"# {path}")
+    print(f"# from the library of ssrics: {kind}/{path.name}")
     print(path.read_text(encoding="utf-8"), end="")

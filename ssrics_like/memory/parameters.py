@@ -66,9 +66,9 @@ class MemoryParameters(BaseModel):
     subsymbolic: bool = True
     decay: Annotated[float, Field(gt=0)] | None = 0.5
     base_level_constant: float = 0.0
-    optimized_learning: StrictBool | Annotated[StrictInt, Field(gt=0)] = False
+    optimized_learning: StrictBool | Annotated[StrictInt, Field(gt=0, le=1_000_000)] = False
     retrieval_threshold: float = 0.0
-    latency_factor: Annotated[float, Field(ge=0)] = 1.0
+    latency_factor: Annotated[float, Field(ge=0, le=1e6)] = 1.0
     latency_exponent: Annotated[float, Field(ge=0)] = 1.0
     mismatch_penalty: float | None = None
     max_similarity: float = 0.0

@@ -35,5 +35,5 @@ class MemoryProfile(MemoryParameters):
     )
     sector_difference: Annotated[float, Field(le=0)] = -0.125
     view_difference: Annotated[float, Field(le=0)] = -0.125
-    place_sigma_m: Annotated[float, Field(gt=0)] = 1.0
-    place_drift: Annotated[float, Field(ge=0)] = 0.02
+    place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 1.0
+    place_drift: Annotated[float, Field(ge=0, le=1e3)] = 0.02

@@ -57,9 +57,9 @@ class PerceptionProfile(BaseModel):
 
     title: str = ""
     source: str = ""
-    range_cap_m: Annotated[float, Field(gt=0.0)] = 8.0
-    repair_window: Annotated[int, Field(ge=0)] = 5
-    interval: Annotated[int, Field(ge=2)] = 20
+    range_cap_m: Annotated[float, Field(gt=0.0, le=10_000.0)] = 8.0
+    repair_window: Annotated[int, Field(ge=0, le=1001)] = 5
+    interval: Annotated[int, Field(ge=2, le=10_000)] = 20
     gradient: Fraction = 0.9
     threshold: Fraction = REPORT_THRESHOLD
     advance: Advance = "sliding"
@@ -67,7 +67,7 @@ class PerceptionProfile(BaseModel):
     prominence: Fraction = 0.1
     anchor: Anchor = "middle"
     sector_rule: SectorRule = "robust"
-    view_beams: Annotated[int, Field(ge=2)] = 36
+    view_beams: Annotated[int, Field(ge=2, le=10_000)] = 36
 
     @field_validator("repair_window")
     @classmethod

@@ -332,10 +332,12 @@ def _chunk(clause: Clause, types: buffers.ChunkTypes, *, filled: bool = True) ->
             pair.slot, {"values": None, "variables": None, "negvalues": (), "negvariables": ()}
         )
         kind = "variables" if pair.variable else "values"
+        # pyactr binds a variable of each tested buffer's own name to its whole chunk.
+        word = f"variable-{pair.word}" if pair.variable else pair.word
         if pair.negated:
-            part[f"neg{kind}"] += (pair.word,)
+            part[f"neg{kind}"] += (word,)
         else:
-            part[kind] = pair.word
+            part[kind] = word
         if filled and pair.variable:
             part["negvalues"] += ("None",)
     slots = {slot: utilities.VarvalClass(**part) for slot, part in parts.items()}

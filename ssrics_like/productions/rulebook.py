@@ -15,11 +15,11 @@ from ssrics_like.productions.syntax import RuleSyntaxError, parse_rule
 
 
 class _Strict(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
 class _RuleEntry(_Strict):
-    name: str
+    name: Annotated[str, Field(pattern=r"^[^\s](.*[^\s])?$")]
     why: str
     rule: str
     utility: float = 0.0

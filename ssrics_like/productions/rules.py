@@ -26,7 +26,7 @@ class EngineParameters(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
-    rule_firing: Annotated[float, Field(gt=0)] = 0.05
+    rule_firing: Annotated[float, Field(ge=0.001)] = 0.05
     utility_noise: Annotated[float, Field(ge=0)] = 0.0
     imaginal_delay: Annotated[float, Field(ge=0)] = 0.2
 

@@ -7,6 +7,7 @@ matches, an unknown slot silently widens the chunk type.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from ssrics_like.productions.rules import Rule, Rulebook
 
 Problem = tuple[int, str]
+NAME = re.compile(r"[A-Za-z]\w*")
 
 
 def problems(book: Rulebook, key_line: Mapping[str, int], *, complete: bool) -> list[Problem]:
@@ -52,6 +54,9 @@ def problems(book: Rulebook, key_line: Mapping[str, int], *, complete: bool) -> 
 
 def _of_the_file(book: Rulebook) -> Iterator[tuple[str, str]]:
     for name, slots in book.chunk_types.items():
+        for word in (name, *slots):
+            if not NAME.fullmatch(word):
+                yield "chunk_types", f"'{word}': expected letters, digits and _, a letter first"
         for slot in slots:
             if slots.count(slot) > 1:
                 yield "chunk_types", f"chunk type '{name}': slot '{slot}' stands twice"
@@ -108,6 +113,10 @@ def _of_a_clause(book: Rulebook, clause: Clause) -> Iterator[Problem]:
     if clause.sign == "?":
         for pair in clause.pairs:
             yield from _of_a_query(pair, kind.numeric_queries)
+            if pair.slot in kind.numeric_queries and "novelty" not in book.chunk_types.get(
+                "reflex", ()
+            ):
+                yield pair.line, f"query '{pair.slot}': chunk type 'reflex' has no slot 'novelty'"
         return
     if clause.sign == "~":
         return
@@ -126,9 +135,14 @@ def _of_a_clause(book: Rulebook, clause: Clause) -> Iterator[Problem]:
 def _of_a_query(pair: Pair, numeric: tuple[str, ...]) -> Iterator[Problem]:
     if pair.slot in numeric:
         try:
-            float(pair.word)
+            sensible = 0 <= float(pair.word) <= 1
         except ValueError:
-            yield pair.line, f"query '{pair.slot}': {pair.word!r} where a number was expected"
+            sensible = False
+        if not sensible:
+            yield (
+                pair.line,
+                f"query '{pair.slot}': {pair.word!r} where a number of 0 to 1 was expected",
+            )
         return
     if pair.slot not in QUERIES:
         yield pair.line, _unknown("query", pair.slot, (*QUERIES, *numeric))

@@ -8,9 +8,13 @@ So an interrupted command leaves finished runs whole, and can be resumed.
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from pathlib import Path
-from typing import Any
+from types import TracebackType
+from typing import Any, Self
+
+from filelock import FileLock, Timeout
 
 from ssrics_like.errors import ResultsError
 from ssrics_like.results import tables
@@ -19,39 +23,64 @@ from ssrics_like.results.files import csv_line, json_text, plain, write_atomical
 MANIFEST = "manifest.json"
 FORMAT = "ssrics-results"
 VERSION = 1
-_OURS = {
-    MANIFEST, "decisions.csv", "landmarks.csv", "path.csv", "topology", "trace", "report.html",
-    "figures",
-}  # fmt: skip
+OURS = (MANIFEST, "decisions.csv", "landmarks.csv", "path.csv", "topology", "trace", "figures")
+_RUN_FILE = re.compile(r"run-\d{3,}\.(json|graphml|jsonl)")
 
 
 class ResultsFolder:
-    """One results folder.
+    """One results folder, for as long as a command writes to it.
 
     Parameters
     ----------
     path : Path
-        The folder; made if it does not exist.
+        The folder; made if it does not exist. Files of others in it are left alone.
 
     Raises
     ------
     ResultsError
-        It cannot be made, or holds files that are not results.
+        It cannot be made, another command is writing to it, or files that are no results bear
+        the names of results.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self.staging = path / ".runs"
+        self._lock = FileLock(path / ".lock", timeout=0)
         if path.exists() and not path.is_dir():
             raise ResultsError(f"{path}: is a file, expected a folder for results")
-        if path.is_dir():
-            names = (item.name for item in path.iterdir() if not item.name.startswith("."))
-            foreign = sorted(name for name in names if name not in _OURS)
-            if foreign:
-                raise ResultsError(
-                    f"{path}: holds '{foreign[0]}', which is no result of ssrics; "
-                    "name an empty or new folder"
-                )
+        taken = [name for name in OURS if (path / name).exists()]
+        if taken and not (path / MANIFEST).is_file():
+            raise ResultsError(
+                f"{path}: holds '{taken[0]}' but no {MANIFEST}, so it is no result of ssrics and "
+                "would be lost; name another folder"
+            )
+
+    def __enter__(self) -> Self:
+        self._new = not self.path.exists()
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            self._lock.acquire()
+        except Timeout:
+            raise ResultsError(f"{self.path}: another ssrics is writing to it") from None
+        except OSError as e:
+            raise ResultsError(f"{self.path}: cannot be written ({e.strerror})") from None
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Remove what an unfinished run left; the folder too, if it is new and nothing is in it."""
+        for partial in self.staging.glob("*.partial"):
+            shutil.rmtree(partial)
+        if self.staging.is_dir() and not self._complete():
+            shutil.rmtree(self.staging)
+        self._lock.release()
+        Path(self._lock.lock_file).unlink(missing_ok=True)
+        if self._new and not any(self.path.iterdir()):
+            self.path.rmdir()
 
     def begin(self, description: dict[str, Any], *, resume: bool) -> dict[int, dict[str, Any]]:
         """Prepare for runs of a scenario.
@@ -59,7 +88,8 @@ class ResultsFolder:
         Parameters
         ----------
         description : dict
-            All that decides the results; runs of another description cannot be resumed.
+            All that decides the results; runs of another description cannot be resumed, but
+            there may be more of them.
         resume : bool
             Keep the runs that are complete, rather than start anew.
 
@@ -71,20 +101,16 @@ class ResultsFolder:
         Raises
         ------
         ResultsError
-            The folder cannot be written; or it is to be resumed, but the runs there belong to
-            another scenario.
+            It is to be resumed, but the runs there belong to another scenario.
         """
         note = self.staging / "scenario.json"
-        text = json_text(description)
-        try:
-            self.staging.mkdir(parents=True, exist_ok=True)
-        except OSError as e:
-            raise ResultsError(f"{self.path}: cannot be written ({e.strerror})") from None
+        text = json_text(_but_for_runs(description))
         if resume and note.is_file():
             if note.read_text(encoding="utf-8") != text:
                 raise self._other()
         else:
-            shutil.rmtree(self.staging)
+            if self.staging.exists():
+                shutil.rmtree(self.staging)
             self.staging.mkdir()
             write_atomically(note, text)
         for partial in self.staging.glob("*.partial"):
@@ -115,15 +141,6 @@ class ResultsFolder:
     def tidy(self) -> None:
         """Remove the separate runs once the tables hold all of them."""
         shutil.rmtree(self.staging)
-
-    def abandon(self) -> None:
-        """Remove what an unfinished run left; the folder too, if nothing else is in it."""
-        for partial in self.staging.glob("*.partial"):
-            shutil.rmtree(partial)
-        if not self._complete():
-            self.tidy()
-            if not any(self.path.iterdir()):
-                self.path.rmdir()
 
     def open_run(self, run: int) -> Path:
         """Make the folder that a run is written to."""
@@ -158,7 +175,8 @@ class ResultsFolder:
         for name in ("topology", "trace", "figures"):
             (self.path / name).mkdir(exist_ok=True)
             for old in (self.path / name).iterdir():
-                old.unlink()
+                if _RUN_FILE.fullmatch(old.name):
+                    old.unlink()
         (self.path / "report.html").unlink(missing_ok=True)  # drawn anew from all runs
         for folder in folders:
             for source, target in (
@@ -190,6 +208,11 @@ class ResultsFolder:
                         part.readline()
                     shutil.copyfileobj(part, out)
         temporary.replace(self.path / name)
+
+
+def _but_for_runs(description: dict[str, Any]) -> dict[str, Any]:
+    scenario = {key: value for key, value in description["scenario"].items() if key != "runs"}
+    return {**description, "scenario": scenario}
 
 
 def _link(source: Path, target: Path) -> None:

@@ -24,6 +24,8 @@ from ssrics_like.results.thinning import Outline, Series
 
 PATH_STEP_S = 0.1  # path.csv holds at most 10 poses a second
 ACTIVATION_POINTS = 300
+SETTLING_S = 60.0  # how long after the last scan activation is still drawn
+JUMP_M, JUMP_M_S = 5.0, 20.0  # no robot indoors does this between two scans
 
 
 class Recorder:
@@ -46,6 +48,7 @@ class Recorder:
         self.run = run
         self.scans = 0
         self.length_m = 0.0
+        self.jumps = 0
         self.decided: Counter[str] = Counter()
         self.start_s = start_s
         self.end_s = start_s
@@ -74,7 +77,10 @@ class Recorder:
         if self._previous is not None:
             here = observation.true_pose or observation.pose
             before = self._previous.true_pose or self._previous.pose
-            self.length_m += math.hypot(here.x_m - before.x_m, here.y_m - before.y_m)
+            step_m = math.hypot(here.x_m - before.x_m, here.y_m - before.y_m)
+            self.length_m += step_m
+            elapsed_s = observation.t_s - self._previous.t_s
+            self.jumps += step_m > JUMP_M and step_m > JUMP_M_S * elapsed_s
         self._previous = observation
         self.end_s = observation.t_s
         self.scans += 1
@@ -132,6 +138,7 @@ class Recorder:
             "start_s": self.start_s,
             "duration_s": self.end_s - self.start_s,
             "path_length_m": self.length_m,
+            "jumps": self.jumps,
             "novelty": {
                 "intervals": seen.intervals,
                 "novel_intervals": seen.novel_intervals,
@@ -148,7 +155,9 @@ class Recorder:
         """Collect what the report draws and no table holds."""
         memory = model.declarative
         gradient = model.perception.profile.gradient
-        times = np.linspace(0.0, self.end_s - self.start_s, ACTIVATION_POINTS)
+        last_s = self.end_s - self.start_s
+        last_s = min(max(last_s, model.engine.now_s), last_s + SETTLING_S)
+        times = np.linspace(0.0, last_s, ACTIVATION_POINTS)
         levels = np.array([memory.activations(float(t)) for t in times])
         levels[~np.isfinite(levels)] = np.nan  # not there yet
         column = {name: i for i, name in enumerate(memory.names)}

@@ -16,7 +16,7 @@ import numpy as np
 import ssrics_like
 from ssrics_like.model import CognitiveModel
 from ssrics_like.results.folder import ResultsFolder
-from ssrics_like.results.recorder import Recorder
+from ssrics_like.results.recorder import JUMP_M, JUMP_M_S, Recorder
 from ssrics_like.scenarios.schema import Resolved
 from ssrics_like.sources import LogSource, open_log
 
@@ -72,23 +72,18 @@ def run_scenario(
         "frame": source.frame,
         "input": {"file": source.path.name, "format": source.format, "sha256": source.sha256},
     }
-    folder = ResultsFolder(out)
-    if resume:
-        finished = folder.complete(description)
+    with ResultsFolder(out) as folder:
+        finished = folder.complete(description) if resume else None
         if finished is not None:
             return finished
-    done = folder.begin(description, resume=resume)
-    manifest: dict[str, Any] = {}
-    for run in range(resolved.scenario.runs):
-        if run not in done:
-            try:
+        done = folder.begin(description, resume=resume)
+        manifest: dict[str, Any] = {}
+        for run in range(resolved.scenario.runs):
+            if run not in done:
                 entry = _one_run(resolved, source, folder.open_run(run), run, progress)
-            except BaseException:
-                folder.abandon()
-                raise
-            folder.close_run(run, entry)
-        manifest = folder.combine({**description, "wall_clock": _wall_clock(started)})
-    folder.tidy()
+                folder.close_run(run, entry)
+            manifest = folder.combine({**description, "wall_clock": _wall_clock(started)})
+        folder.tidy()
     return manifest
 
 
@@ -118,6 +113,16 @@ def _one_run(
         progress(run, 1.0)
         entry = recorder.finish(model)
     warnings = source.report.warnings()
+    if not entry["novelty"]["intervals"]:
+        warnings.append(
+            f"the log has {entry['scans']} scans, fewer than one interval of "
+            f"{resolved.perception.interval}: nothing can be novel"
+        )
+    if entry["jumps"]:
+        warnings.append(
+            f"the robot's pose jumped {entry['jumps']} times by more than {JUMP_M:g} m and faster "
+            f"than {JUMP_M_S:g} m/s; the path's length and the places of landmarks suffer from it"
+        )
     if entry["undecided"]:
         warnings.append(f"{entry['undecided']} reflexes were still undecided at the end of the run")
     if entry["restarts"]:

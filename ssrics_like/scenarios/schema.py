@@ -40,7 +40,7 @@ class LogSettings(_Strict):
     log: str
     format: str = "auto"
     strict: bool = False
-    fallback_rate_hz: Annotated[float, Field(gt=0)] = 10.0
+    fallback_rate_hz: Annotated[float, Field(ge=0.001, le=100_000)] = 10.0
     frame: Literal["map", "odometry", "corrected"] | None = None
 
 
@@ -91,6 +91,8 @@ class Resolved:
                 "name": self.scenario.productions,
                 "title": book.title,
                 "parameters": book.parameters.model_dump(),
+                "chunk_types": {name: list(slots) for name, slots in book.chunk_types.items()},
+                "goal": book.goal,
                 "harvest": list(book.harvest),
                 "rules": {
                     rule.name: {"why": rule.why, "utility": rule.utility, "rule": rule.source}
