@@ -58,7 +58,8 @@ def seconds_per_percept(*, stock: bool) -> float:
     """Time a smaller rule set, which stock pyactr understands too, over as many chunks."""
     rng = np.random.default_rng(0)
     parameters = {"retrieval_threshold": -9.0, "latency_factor": 0.001, "decay": 0.5}
-    modules = LandmarkModules(MemoryProfile(**parameters), rng, lambda _: None, lambda *_: None)
+    exact = MemoryProfile(**parameters, mismatch_penalty=None, activation_noise=0.0)
+    modules = LandmarkModules(exact, rng, lambda _: None, lambda *_: None)
     engine = Engine(
         load_rulebook(RULES / "parity.yaml"), modules, modules, stock=parameters if stock else None
     )

@@ -109,6 +109,7 @@ def test_a_scenario_of_the_library_runs_by_name(capsys, tmp_path):
         (["replay", DEMO, "--frame", "mapp"], "did you mean 'map'?"),
         (["replay", DEMO, "--runs", "0"], "runs"),
         (["replay", DEMO, "--runs", "many"], "many"),
+        (["replay", DEMO, "--runs", "1.5"], "1.5"),
         (["replay", DEMO, "--fallback-rate", "0"], "fallback_rate_hz"),
         (["run", "dem"], "did you mean 'demo'?"),
         (["run", "none.yaml"], "none.yaml: no such file"),
@@ -176,6 +177,48 @@ def test_check_reports_every_problem_of_every_file(capsys, tmp_path):
     assert "none of its keys is known" in complained
     assert [line.split(": ")[1] for line in said.splitlines()] == ["ok", "ok"]
     assert "carmen log, 1642 scans" in said
+
+
+def test_check_finds_damaged_results_and_scenarios_without_their_files(capsys, tmp_path):
+    out = tmp_path / "out"
+    run(capsys, "run", "demo", "-o", out, "-q")
+    assert run(capsys, "check", out)[0] == 0
+    table = (out / "decisions.csv").read_text()
+    for damage, said in [
+        (table[: len(table) // 2], "decisions.csv"),
+        ("", "decisions.csv:1: the header"),
+        (table + "1,2\n", "has 2 cells, expected 19"),
+        ("\n".join(table.splitlines()[:-1]) + "\n", "rows of run 0, the manifest"),
+    ]:
+        (out / "decisions.csv").write_text(damage)
+        status, _, complained = run(capsys, "check", out)
+        assert status == 1
+        assert said in complained
+    scenario = tmp_path / "s.yaml"
+    scenario.write_text("source: {log: nope.log}\nperception: reprot\nmemory: ./none.yaml\n")
+    status, _, complained = run(capsys, "check", scenario)
+    assert status == 1
+    assert [line.split(": ")[1:3] for line in complained.splitlines()] == [
+        [f"{scenario}:2:1", "perception"],
+        [f"{scenario}:3:1", "memory"],
+        [f"{scenario}:1:10", "source.log"],
+    ]
+    assert "did you mean 'report'?" in complained
+
+
+def test_a_scenario_overrides_single_values(capsys, tmp_path):
+    scenario = tmp_path / "s.yaml"
+    scenario.write_text(
+        f"source: {{log: {DEMO}}}\nset:\n  memory.decay: 0.3\n  perception.interval: 9\n"
+    )
+    run(capsys, "run", scenario, "-o", tmp_path / "out", "-q", "--set", "perception.interval=8")
+    manifest = (tmp_path / "out" / "manifest.json").read_text()
+    assert '"decay": 0.3' in manifest
+    assert '"interval": 8' in manifest
+    scenario.write_text(f"source: {{log: {DEMO}}}\nset: {{memry.decay: 0.3}}\n")
+    status, _, complained = run(capsys, "run", scenario, "-o", tmp_path / "two")
+    assert status == 1
+    assert "did you mean 'memory'?" in complained
 
 
 def test_every_entry_of_the_library_is_listed_shown_and_checked(capsys):

@@ -23,6 +23,8 @@ BASE = {
     "decay": 0.5,
     "retrieval_threshold": -1.0,
     "latency_factor": 0.1,
+    "mismatch_penalty": None,
+    "activation_noise": 0.0,
     "sector_difference": -1.0,  # ACT-R's default for any two values
 }
 VARIANTS = {

@@ -22,7 +22,11 @@ PERCEPTION = PerceptionProfile(
 )
 # No noise, no threshold to speak of: what is recalled is decided by place alone.
 MEMORY = MemoryProfile(
-    retrieval_threshold=-6.5, latency_factor=0.001, mismatch_penalty=8.0, place_sigma_m=0.5
+    retrieval_threshold=-6.5,
+    latency_factor=0.001,
+    mismatch_penalty=8.0,
+    activation_noise=0.0,
+    place_sigma_m=0.5,
 )
 
 

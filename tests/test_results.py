@@ -157,9 +157,7 @@ sector_rule: maximum
 view_beams: 9
 """
 TINY_MEMORY = """\
-retrieval_threshold: -6.5
-latency_factor: 0.001
-mismatch_penalty: 8.0
+activation_noise: 0.0
 place_sigma_m: 0.5
 place_drift: 0.0
 """

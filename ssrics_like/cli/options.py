@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 
+
+def _whole(_kind: type, tokens: Sequence[Token]) -> int:
+    """Read a whole number; 1.5 is none, and not rounded."""
+    return int(tokens[0].value)
+
+
+Whole = Annotated[int, Parameter(converter=_whole)]
 Out = Annotated[Path | None, Parameter(name=["--out", "-o"])]
 Overrides = Annotated[tuple[str, ...], Parameter(name="--set", negative="", consume_multiple=False)]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative="")]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ssrics_like.cli.options import Flag, Out, Overrides, Quiet
+from ssrics_like.cli.options import Flag, Out, Overrides, Quiet, Whole
 
 
 def replay(
@@ -15,8 +15,8 @@ def replay(
     productions: str = "landmark",
     memory: str = "act-r",
     set_: Overrides = (),
-    runs: int = 1,
-    seed: int = 2006,
+    runs: Whole = 1,
+    seed: Whole = 2006,
     format: str = "auto",  # noqa: A002 - the option's name
     frame: str | None = None,
     fallback_rate: float = 10.0,

@@ -12,6 +12,8 @@ from ssrics_like.memory.parameters import MemoryParameters
 class MemoryProfile(MemoryParameters):
     """An entry of the library's memory folder.
 
+    The defaults are those of the library's profile ``act-r``, which says why.
+
     Attributes
     ----------
     title, source : str
@@ -30,6 +32,10 @@ class MemoryProfile(MemoryParameters):
 
     title: str = ""
     source: str = ""
+    retrieval_threshold: float = -6.5
+    latency_factor: Annotated[float, Field(ge=0, le=1e6)] = 0.001
+    mismatch_penalty: float | None = 8.0
+    activation_noise: Annotated[float, Field(ge=0)] = 0.1
     source_activation: dict[Literal["g", "imaginal"], float] = Field(  # type: ignore[assignment]
         default={"imaginal": 1.0}
     )

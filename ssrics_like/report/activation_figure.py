@@ -79,9 +79,10 @@ def draw_activation(results: Results) -> Drawing | None:
         figure,
         f"Base-level activation of {len(levels)} landmark chunks over time",
         "How well each landmark is remembered: its base level jumps when it is declared or "
-        f"recognised and decays from then on. The {len(coloured)} most visited are labelled, with "
-        f"their visits in brackets{rest}. Below the dashed line a landmark can only be recalled "
-        "with help from noise or spreading activation. Sampled at "
+        f"recognised and decays from then on. The {len(coloured)} most visited are labelled; the "
+        f"number of visits (returns from another landmark) is in brackets{rest}. Below the dashed "
+        "line a landmark can only be recalled with help from noise or spreading activation. "
+        "Sampled at "
         f"{len(t)} moments, so that the height of the jumps is not exact.",
     )
 

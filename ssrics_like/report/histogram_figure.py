@@ -79,7 +79,7 @@ def _bars(axes: Axes, histogram: Histogram, name: str, threshold: float) -> None
         fontweight="bold",
     )  # fmt: skip
     axes.annotate(
-        f"{counts[-1]} of {pairs} pairs are boring: {verdict} the threshold "
+        f"{counts[-1]} of {pairs} pairs are boring, which is {verdict} the threshold "
         f"{fraction_text(threshold)}; ends at scan {histogram.scan}",
         (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points",
         fontsize=style.SMALL_PT + 0.5, color=style.MUTED,

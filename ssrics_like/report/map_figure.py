@@ -129,7 +129,7 @@ def _ends(axes: Axes, path: NDArray[np.float64], frame: Frame) -> Room:
     for (x, y), text, marker in ends:
         axes.plot(
             x, y, marker, markersize=5.2, markerfacecolor="white", markeredgecolor=style.INK,
-            markeredgewidth=1.3, zorder=9,
+            markeredgewidth=1.3, zorder=2.5,
         )  # fmt: skip
         px, py = frame.points(x, y)
         room.take(px, py, 3.5, 3.5)

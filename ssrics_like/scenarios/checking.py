@@ -14,7 +14,7 @@ from ssrics_like.library import SUFFIXES
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.productions.rulebook import RuleFile, load_rulebook
-from ssrics_like.results.folder import read_manifest
+from ssrics_like.results.checking import check_results
 from ssrics_like.scenarios.schema import Scenario, load_scenario, resolve
 from ssrics_like.sources import open_log
 
@@ -35,7 +35,7 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
         What is wrong with it.
     """
     if path.is_dir():
-        manifest = read_manifest(path)
+        manifest = check_results(path)
         return f"results of {len(manifest['runs'])} run(s), frame {manifest['frame']}"
     if path.suffix in SUFFIXES:
         kind = _kind(path)

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ssrics_like import library, settings
-from ssrics_like.errors import SettingsError, choices, nearest
+from ssrics_like.errors import LibraryError, SettingsError, choices, nearest
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.productions.rulebook import load_rulebook
@@ -59,6 +59,8 @@ class Scenario(_Strict):
         Number of runs; they differ in their noise.
     seed : int
         Run k uses the k-th seed spawned from it.
+    set : dict
+        Single values of the modules to override, as after ``--set``: ``memory.decay: 0.3``.
     """
 
     title: str = ""
@@ -68,6 +70,7 @@ class Scenario(_Strict):
     memory: str = "act-r"
     runs: Annotated[int, Field(ge=1)] = 1
     seed: Annotated[int, Field(ge=0)] = 2006
+    set: dict[str, Any] = {}
 
 
 @dataclass(frozen=True)
@@ -100,6 +103,7 @@ class Resolved:
                 },
             },
             "memory": {"name": self.scenario.memory, **self.memory.model_dump()},
+            "set": self.scenario.set,
             "runs": self.scenario.runs,
             "seed": self.scenario.seed,
         }
@@ -113,7 +117,20 @@ def load_scenario(path: Path) -> Scenario:
     SettingsError
         With one line for each thing that is wrong.
     """
-    return settings.validated(Scenario, settings.read_document(path))
+    document = settings.read_document(path)
+    scenario = settings.validated(Scenario, document)
+    problems = []
+    for module in MODULES:
+        try:
+            library.find(module, _at(path.parent, getattr(scenario, module)))
+        except LibraryError as e:
+            problems.append(f"{document.where((module,))}: {module}: {e}")
+    if not (path.parent / scenario.source.log).is_file():
+        where = document.where(("source", "log"))
+        problems.append(f"{where}: source.log: {path.parent / scenario.source.log}: no such file")
+    if problems:
+        raise SettingsError("\n".join(problems))
+    return scenario
 
 
 def make_scenario(data: dict[str, Any]) -> Scenario:
@@ -193,17 +210,18 @@ def resolve(scenario: Scenario, base: Path, overrides: list[str] | None = None) 
     """
     changes: dict[str, dict[str, Any]] = {module: {} for module in MODULES}
     own: dict[str, Any] = {}
-    for text in overrides or []:
-        key, value = settings.parse_override(text)
+    typed = dict(settings.parse_override(text) for text in overrides or [])
+    for key, value in {**scenario.set, **typed}.items():
         head, dot, rest = key.partition(".")
         if head in changes and dot:
             changes[head][rest] = value
-        elif head in Scenario.model_fields:
+        elif key in typed and head in Scenario.model_fields:
             own[key] = value
         else:
-            known = [*Scenario.model_fields, *(f"{module}." for module in MODULES)]
+            fields = Scenario.model_fields if key in typed else ()
+            known = [*fields, *(f"{module}." for module in MODULES)]
             raise SettingsError(
-                f"--set {text}: unknown key '{head}'{nearest(head, Scenario.model_fields)}; "
+                f"--set {key}: unknown key '{head}'{nearest(head, (*fields, *MODULES))}; "
                 f"known: {choices(known)}"
             )
     scenario = settings.override(scenario, own, "")

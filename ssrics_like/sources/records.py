@@ -124,11 +124,17 @@ def stamp(token: bytes) -> float:
     return float(token) if is_number(token) else math.nan
 
 
+FARTHEST_M = 2e7
+"""Half way round the Earth: coordinates of a map grid may be large, nonsense is larger."""
+
+
 def pose(values: Sequence[float] | NDArray[np.float64], scale: float = 1.0) -> Pose:
     """Return x, y, theta as a pose; `scale` turns the log's unit into metres."""
     x, y, theta = float(values[0]) * scale, float(values[1]) * scale, float(values[2])
     if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(theta)):
         raise MalformedLineError(f"the pose ({x}, {y}, {theta}) is not finite")
+    if max(abs(x), abs(y)) > FARTHEST_M:
+        raise MalformedLineError(f"the pose ({x:g}, {y:g}) lies more than {FARTHEST_M:g} m away")
     return Pose(x, y, theta)
 
 
