@@ -33,7 +33,7 @@ def reflex(event: int, t_s: float, x_m: float, rng: np.random.Generator) -> Refl
     """Return a reflex somewhere on a line."""
     return Reflex(
         event=event, scan=event, t_s=t_s, pose=Pose(x_m, 0.0, 0.0), true_pose=None,
-        perceived_s=t_s, modality="laser", novelty=0.5, sector="front", structure="unknown",
+        perceived_s=t_s, travelled_m=x_m, modality="laser", novelty=0.5, sector="front", structure="unknown",
         view=rng.normal(size=36).astype(np.float32),
     )  # fmt: skip
 
