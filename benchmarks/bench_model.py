@@ -33,7 +33,8 @@ def reflex(event: int, t_s: float, x_m: float, rng: np.random.Generator) -> Refl
     """Return a reflex somewhere on a line."""
     return Reflex(
         event=event, scan=event, t_s=t_s, pose=Pose(x_m, 0.0, 0.0), true_pose=None,
-        perceived_s=t_s, travelled_m=x_m, modality="laser", novelty=0.5, sector="front", structure="unknown",
+        perceived_s=t_s, travelled_m=x_m, modality="laser", novelty=0.5, sector="front",
+        structure="unknown",
         view=rng.normal(size=36).astype(np.float32),
     )  # fmt: skip
 
@@ -76,7 +77,7 @@ def seconds_per_percept(*, stock: bool) -> float:
 
 def main() -> None:
     """Print the table."""
-    profile = load_memory("act-r")
+    profile = load_memory("act-r").model_copy(update={"place_drift": 0.0})
     print(
         f"reflex decided by the landmark rules, {LANDMARKS} landmarks in memory: "
         f"{seconds_per_reflex(profile) * 1e3:.2f} ms"

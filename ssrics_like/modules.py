@@ -205,7 +205,8 @@ class LandmarkModules:
                 name,
                 math.hypot(dx, dy),
                 math.atan2(dy, dx) - before.pose.theta_rad,
-                reflex.travelled_m - before.travelled_m,
+                # Rules may decide about two reflexes in either order; the way between is the same.
+                abs(reflex.travelled_m - before.travelled_m),
             )
             if not new:
                 self.topological.visit(name, reflex.t_s)
