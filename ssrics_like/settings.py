@@ -341,7 +341,9 @@ def override(settings: Settings, changes: Mapping[str, Any], prefix: str) -> Set
         try:
             return kind.model_validate(data)
         except ValidationError as e:
-            problems = [f"--set {prefix}{text}" for _, text in explain(kind, e, data)]
+            for where, text in explain(kind, e, data):
+                key = f"{'.'.join(map(str, where))}: " if text.startswith("unknown key") else ""
+                problems.append(f"--set {prefix}{key}{text}")
     raise SettingsError("\n".join(problems))
 
 

@@ -184,6 +184,17 @@ def test_landmark_rules_ask_memory_with_everything_perceived():
     assert stored_s == pytest.approx(request.t_s + 0.05)
 
 
+def test_a_variable_matches_only_a_slot_that_holds_something(tmp_path):
+    text = (RULES / "two-ways.yaml").read_text().replace("task: [state]", "task: [state, last]")
+    guarded = text.replace("    rule: |\n", "    rule: |\n      =g> isa task last =last\n", 1)
+    path = tmp_path / "guarded.yaml"
+    path.write_text(guarded)
+    engine, marks, _ = make(path)
+    engine.push("orienting", reflex(0, "left"), 1.0)
+    engine.settle()
+    assert [r.rule for r in marks.requests] == ["that"]  # the goal has no `last`
+
+
 def test_a_variable_may_be_called_like_a_buffer():
     trace = []
     engine, _, _ = make("landmark", trace=trace.append)
