@@ -70,7 +70,7 @@ def _bars(axes: Axes, histogram: Histogram, name: str, threshold: float) -> None
     axes.set_xticks([i - 0.5 for i in range(bins + 1)], labels)
     axes.set_xlabel("correlation of two scans")
     axes.set_ylabel("pairs of scans")
-    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
     axes.grid(axis="y")
     verdict = "above" if histogram.tau > threshold else "not above"
     axes.annotate(
