@@ -232,7 +232,7 @@ class LandmarkBuffer(_ModuleBuffer):
 
 
 class ImaginalBuffer(goals.Goal):
-    """Builds a chunk over a delay; harvests into the project's own memory."""
+    """Builds a chunk over a delay; with none, the goal. Harvests into the project's own memory."""
 
     def __init__(self, types: ChunkTypes, harvest: Harvest | None, delay: float) -> None:
         super().__init__(delay=delay)
