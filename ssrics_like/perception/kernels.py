@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssrics_like.perception.compiling import HUGE_M, compiled, compiled_reordering
+from ssrics_like.compiling import HUGE_M, compiled, compiled_reordering
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

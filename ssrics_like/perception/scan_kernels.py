@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssrics_like.perception.compiling import HUGE_M, compiled
+from ssrics_like.compiling import HUGE_M, compiled
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

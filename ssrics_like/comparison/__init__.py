@@ -1,0 +1,1 @@
+"""Human and robot choices of landmarks: matching, agreement, chance."""

@@ -1,0 +1,1 @@
+"""The simulated building: floor plan, laser, robot, exploration. Values in, values out."""
