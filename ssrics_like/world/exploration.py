@@ -1,0 +1,114 @@
+"""Frontier exploration: drive to where the known free space borders on the unknown.
+
+References
+----------
+Yamauchi (1997), "A frontier-based approach for autonomous exploration"; (1998), "Frontier-based
+exploration using multiple robots", which the report used. As there, the robot goes to the nearest
+frontier that it can get to. Other than there, it turns to another as soon as this one has been
+looked across, need not drive all the way, and looks at the frontier rather than all around.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssrics_like.world import frontier_kernels, way_kernels
+from ssrics_like.world.motion_kernels import ARRIVED
+from ssrics_like.world.navigation import Errand
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ssrics_like.world.navigation import Navigator
+
+LEAST_M = 0.2  # a shorter frontier is a gap between beams or noise
+PEEK_M = 0.35  # from this near a frontier can be looked across
+TRIES = 3  # a frontier that was gone to in vain so often is left
+SET_ASIDE_M = 0.5  # what is left, around where the robot looked
+HOLD_S = 0.5  # between choices, or the robot could waver
+CHECK_S = 0.5  # between looks at whether the way is still open
+LOOKS = 2  # scans taken at a frontier before it is set aside
+
+
+class Exploration:
+    """The leg ``explore: frontier``: it ends when no frontier is left that can be reached."""
+
+    def __init__(self) -> None:
+        self.notes: list[str] = []
+        self.set_aside = 0
+        self._target: tuple[int, int] | None = None
+        self._chosen_s = 0.0
+        self._checked_s = 0.0
+        self._looks = 0
+
+    def begin(self, navigator: Navigator, t_s: float) -> None:
+        """Make room for planning."""
+        shape = navigator.explored.evidence.shape
+        self._tried = np.zeros(shape, np.uint8)
+        self._goals = np.empty(shape, np.int32)
+        self._distance = np.empty(shape, np.int32)
+        self._parent = np.empty(shape, np.int32)
+        self._chosen_s = self._checked_s = t_s
+
+    def next(self, navigator: Navigator, t_s: float, *, stuck: bool) -> Errand | None:
+        """Go on to the frontier, or choose another."""
+        errand = navigator.errand
+        if self._target is None:
+            return self._choose(navigator, t_s)
+        if not self._is_frontier(navigator, self._target):
+            if t_s - self._chosen_s >= HOLD_S or errand.status == ARRIVED:
+                return self._choose(navigator, t_s)
+        elif errand.status == ARRIVED:
+            self._looks += 1
+            if self._looks > LOOKS:
+                return self._set_aside(navigator, t_s)
+        elif stuck:
+            return self._set_aside(navigator, t_s)
+        elif t_s - self._checked_s >= CHECK_S:
+            self._checked_s = t_s
+            if not navigator.explored.is_open(errand.way, errand.at):
+                return self._choose(navigator, t_s)
+        return errand
+
+    def _set_aside(self, navigator: Navigator, t_s: float) -> Errand | None:
+        """Leave the frontier for later: others come first."""
+        assert self._target is not None
+        evidence = navigator.explored.evidence
+        around = round(SET_ASIDE_M / navigator.cell_m)
+        frontier_kernels.set_aside(evidence, self._tried, *self._target, around)
+        self.set_aside += 1
+        return self._choose(navigator, t_s)
+
+    def _choose(self, navigator: Navigator, t_s: float) -> Errand | None:
+        """Plan the way to the nearest frontier, those never tried before first."""
+        grid, cell_m = navigator.explored, navigator.cell_m
+        least, peek = round(LEAST_M / cell_m), round(PEEK_M / cell_m)
+        costs = grid.costs()
+        for tries in range(1, TRIES + 1):
+            if not frontier_kernels.frontier_goals(
+                grid.evidence, self._tried, tries, least, peek, self._goals
+            ):
+                continue
+            goal = way_kernels.spread(
+                costs, self._goals, navigator.cell(), self._distance, self._parent
+            )
+            if goal < 0:
+                continue
+            row, column = divmod(int(self._goals.flat[goal]), costs.shape[1])
+            self._target = (row, column)
+            self._chosen_s = self._checked_s = t_s
+            self._looks = 0
+            way: NDArray[np.float64] = way_kernels.straightened(
+                costs, way_kernels.way_to(self._parent, goal, cell_m), cell_m
+            )
+            end = divmod(goal, costs.shape[1])
+            face_rad = frontier_kernels.facing(grid.evidence, end, (row, column), peek)
+            return Errand(way, face_rad)
+        self._target = None
+        return None
+
+    def _is_frontier(self, navigator: Navigator, cell: tuple[int, int]) -> bool:
+        evidence = navigator.explored.evidence
+        return bool(evidence[cell] < 0 and frontier_kernels.borders_unknown(evidence, *cell))

@@ -1,0 +1,104 @@
+"""The robot's own map: an occupancy grid made from its scans.
+
+References
+----------
+Moravec and Elfes (1985) for the grid; here evidence is a small count, and cells that are too close
+to an obstacle for the body are counted as the map grows, so that planning need not inflate it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssrics_like.world import occupancy_kernels, way_kernels
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ssrics_like.perception.observation import LaserScan, Pose
+
+REACH_M = 8.0  # beams are mapped up to here; what is farther will be seen from nearer
+SQUEEZE_M = 0.05  # nearer than this to a wall it goes only where there is no other way,
+BERTH_M = 0.25  # and nearer than this only where the way around is long
+BLOCKED, SQUEEZE, TIGHT, OPEN = 255, 10, 3, 1
+"""What it costs to pass a cell: see `OccupancyGrid.costs`; 0 cannot be passed."""
+
+
+class OccupancyGrid:
+    """What the robot knows of the building.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Rows and columns.
+    cell_m : float
+        Side of a cell, metres.
+    radius_m : float
+        Radius of the robot's body.
+
+    Attributes
+    ----------
+    evidence : ndarray, shape (rows, columns), int8
+        Above 0 occupied, below 0 free, 0 never seen.
+    """
+
+    def __init__(self, shape: tuple[int, int], cell_m: float, radius_m: float) -> None:
+        self.cell_m = cell_m
+        self.evidence = np.zeros(shape, np.int8)
+        self._counts = np.zeros((3, *shape), np.int16)
+        self._discs = _offsets(
+            [radius_m / cell_m, (radius_m + SQUEEZE_M) / cell_m, (radius_m + BERTH_M) / cell_m]
+        )
+
+    def take(self, scan: LaserScan, pose: Pose, directions: NDArray[np.float64]) -> int:
+        """Take a scan from a pose in the grid frame; return how many cells became known."""
+        new: int = occupancy_kernels.take_scan(
+            self.evidence, self._counts, self._discs, self.cell_m,
+            (pose.x_m, pose.y_m, pose.theta_rad), directions, scan.ranges_m, REACH_M,
+        )  # fmt: skip
+        return new
+
+    def know(self, solid: NDArray[np.bool_]) -> None:
+        """Take a floor plan for granted until scans say otherwise."""
+        most = occupancy_kernels.MOST
+        for row, column in np.argwhere(solid):
+            occupancy_kernels.add_evidence(
+                self.evidence, self._counts, self._discs, int(row), int(column), most
+            )
+        self.evidence[~solid] = -most
+
+    def is_open(self, way: NDArray[np.float64], at: int) -> bool:
+        """Tell whether the body can pass a way, shape (n, 2), from its place `at` on."""
+        return bool(way_kernels.is_open(self._counts[0], way, at, self.cell_m))
+
+    def costs(self) -> NDArray[np.uint8]:
+        """Return what it costs to pass each cell.
+
+        Returns
+        -------
+        ndarray, shape (rows, columns), uint8
+            0 where a cell is not known to be free; BLOCKED where the body would touch something,
+            which only a robot that is there already may pass; SQUEEZE and TIGHT close to an
+            obstacle; OPEN.
+        """
+        costs = np.where(self._counts[2] > 0, TIGHT, OPEN).astype(np.uint8)
+        costs[self._counts[1] > 0] = SQUEEZE
+        costs[self._counts[0] > 0] = BLOCKED
+        costs[self.evidence >= 0] = 0
+        return costs
+
+
+def _offsets(radii: list[float]) -> NDArray[np.int32]:
+    """Return offsets of cells around an occupied one: row, column, index of the least radius.
+
+    Radii rise, in cells. A disc touches a cell whose near edge is within its radius.
+    """
+    most = math.ceil(radii[-1] + 1.0)
+    row, column = np.mgrid[-most : most + 1, -most : most + 1]
+    edge = np.hypot(row, column) - 0.5
+    layer = np.searchsorted(radii, edge)
+    near = layer < len(radii)
+    return np.column_stack([row[near], column[near], layer[near]]).astype(np.int32)

@@ -1,0 +1,121 @@
+"""People who walk about: discs that go from one random place to another."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssrics_like.world import way_kernels
+from ssrics_like.world.occupancy import BLOCKED, OPEN, TIGHT
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ssrics_like.perception.observation import Pose
+
+BERTH_M = 0.2  # they keep off walls where there is room
+POLITE_M = 0.3  # they stop this far from the robot
+PATIENCE_S = 3.0  # and turn elsewhere when it does not go away
+
+
+class People:
+    """A number of walkers.
+
+    Parameters
+    ----------
+    count : int
+        How many.
+    speed_m_s, radius_m : float
+        Of each.
+    rng : numpy.random.Generator
+        Where they start and want to go.
+
+    Attributes
+    ----------
+    discs : ndarray, shape (count, 3)
+        x, y, radius, metres, grid frame.
+    """
+
+    def __init__(
+        self, count: int, speed_m_s: float, radius_m: float, rng: np.random.Generator
+    ) -> None:
+        self.discs = np.zeros((count, 3))
+        self.discs[:, 2] = radius_m
+        self._speed_m_s = speed_m_s
+        self._rng = rng
+        self._ways: list[NDArray[np.float64]] = [np.empty((0, 2))] * count
+        self._waited_s = np.zeros(count)
+
+    def enter(self, clearance: NDArray[np.float32], cell_m: float, robot: Pose) -> None:
+        """Learn the building, at first or after it has changed.
+
+        Parameters
+        ----------
+        clearance : ndarray, shape (rows, columns)
+            Distance from each cell to the nearest solid one, metres.
+        cell_m : float
+            Side of a cell, metres.
+        robot : Pose
+            Where the robot is: people start where it can get to, and not on it.
+        """
+        self._cell_m = cell_m
+        radius_m = self.discs[0, 2] if len(self.discs) else 0.0
+        self._costs = np.where(clearance > radius_m + BERTH_M, OPEN, TIGHT).astype(np.uint8)
+        self._costs[clearance <= radius_m] = BLOCKED
+        self._costs[clearance <= 0.0] = 0
+        self._distance = np.empty(clearance.shape, np.int32)
+        self._parent = np.empty(clearance.shape, np.int32)
+        nowhere = np.full(clearance.shape, -1, np.int32)
+        start = int(robot.y_m / cell_m), int(robot.x_m / cell_m)
+        way_kernels.spread(self._costs, nowhere, start, self._distance, self._parent)
+        there = (self._distance < way_kernels.FAR) & (self._costs != BLOCKED)
+        self._places = np.argwhere(there)
+        self._ways = [np.empty((0, 2))] * len(self.discs)
+        if len(self._places) and not self.discs[:, :2].any():
+            for disc in self.discs:
+                disc[:2] = self._place()
+
+    def walk(self, seconds: float, robot: Pose, robot_radius_m: float) -> None:
+        """Let everybody walk for a moment."""
+        for i, disc in enumerate(self.discs):
+            way = self._ways[i]
+            left = self._speed_m_s * seconds
+            x, y = disc[0], disc[1]
+            while left > 0.0 and len(way):
+                step = math.hypot(way[0, 0] - x, way[0, 1] - y)
+                share = min(left / step, 1.0) if step > 0.0 else 1.0
+                x, y = x + share * (way[0, 0] - x), y + share * (way[0, 1] - y)
+                left -= step
+                if share == 1.0:
+                    way = way[1:]
+            gap = math.hypot(x - robot.x_m, y - robot.y_m) - disc[2] - robot_radius_m
+            nearer = gap < math.hypot(disc[0] - robot.x_m, disc[1] - robot.y_m) - disc[2] - (
+                robot_radius_m
+            )
+            if gap < POLITE_M and nearer:
+                self._waited_s[i] += seconds
+            else:
+                disc[:2] = x, y
+                self._ways[i] = way
+            if not len(self._ways[i]) or self._waited_s[i] > PATIENCE_S:
+                self._waited_s[i] = 0.0
+                self._ways[i] = self._new_way(disc)
+
+    def _place(self) -> tuple[float, float]:
+        row, column = self._places[self._rng.integers(len(self._places))]
+        return (column + 0.5) * self._cell_m, (row + 0.5) * self._cell_m
+
+    def _new_way(self, disc: NDArray[np.float64]) -> NDArray[np.float64]:
+        if not len(self._places):
+            return np.empty((0, 2))
+        x, y = self._place()
+        goals = np.full(self._costs.shape, -1, np.int32)
+        goals[int(y / self._cell_m), int(x / self._cell_m)] = 0
+        start = int(disc[1] / self._cell_m), int(disc[0] / self._cell_m)
+        goal = way_kernels.spread(self._costs, goals, start, self._distance, self._parent)
+        if goal < 0:
+            return np.empty((0, 2))
+        way: NDArray[np.float64] = way_kernels.way_to(self._parent, goal, self._cell_m)
+        return way
