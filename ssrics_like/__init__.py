@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ssrics_like.model import CognitiveModel
     from ssrics_like.perception.novelty import NoveltyDetector, novelty_profile
     from ssrics_like.perception.observation import LaserScan, Observation, Pose
-    from ssrics_like.scenarios.schema import load_memory, load_perception, load_productions
+    from ssrics_like.scenarios.modules import load_memory, load_perception, load_productions
     from ssrics_like.sources import open_log
 
 __version__ = "0.1.0"
@@ -26,9 +26,9 @@ _HOMES = {
     "NoveltyDetector": "ssrics_like.perception.novelty",
     "Observation": "ssrics_like.perception.observation",
     "Pose": "ssrics_like.perception.observation",
-    "load_memory": "ssrics_like.scenarios.schema",
-    "load_perception": "ssrics_like.scenarios.schema",
-    "load_productions": "ssrics_like.scenarios.schema",
+    "load_memory": "ssrics_like.scenarios.modules",
+    "load_perception": "ssrics_like.scenarios.modules",
+    "load_productions": "ssrics_like.scenarios.modules",
     "novelty_profile": "ssrics_like.perception.novelty",
     "open_log": "ssrics_like.sources",
 }

@@ -36,6 +36,10 @@ class LibraryError(SsricsError, LookupError):
     """No library entry or file has the name that was asked for."""
 
 
+class MapError(SsricsError, ValueError):
+    """A map, a plan or a table of places is wrong; one line for each problem."""
+
+
 class ResultsError(SsricsError, OSError):
     """A results folder cannot be written or read."""
 

@@ -1,4 +1,4 @@
-"""Find the project's content: rule sets, profiles, scenarios.
+"""Find the project's content: rule sets, profiles, scenarios, robots.
 
 The content folders stand beside the package in a checkout and inside it in an
 installed wheel. Users name an entry, or give the path of a file of their own.
@@ -10,7 +10,16 @@ from pathlib import Path
 
 from ssrics_like.errors import LibraryError, choices, nearest
 
-KINDS = ("productions", "perception", "memory", "scenarios")
+FOLDERS = {
+    "productions": "productions",
+    "perception": "perception",
+    "memory": "memory",
+    "scenarios": "scenarios",
+    "robots": "scenarios/robots",
+}
+"""Kind of entry -> where its files are."""
+
+KINDS = tuple(FOLDERS)
 SUFFIXES = (".yaml", ".yml")
 
 
@@ -33,7 +42,7 @@ def folder(kind: str) -> Path:
         raise LibraryError(
             f"no library folder '{kind}'{nearest(kind, KINDS)}; the folders are {choices(KINDS)}"
         )
-    return root() / kind
+    return root() / FOLDERS[kind]
 
 
 def entries(kind: str) -> dict[str, Path]:

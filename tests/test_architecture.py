@@ -7,16 +7,17 @@ PACKAGE = Path(__file__).parents[1] / "ssrics_like"
 MIND = ("perception", "productions", "memory")
 INNER = {  # layer -> the layers of the package that it may use, itself aside
     "compiling": set(),
+    "atomic": set(),
     "perception": {"errors", "compiling"},
     "world": {"errors", "compiling", "perception"},
-    "maps": {"errors", "settings", "world"},
+    "maps": {"errors", "settings", "atomic", "world"},
     "memory": {"errors"},
     "productions": {"errors", "settings"},
     "sources": {"errors", "perception"},
     "modules": {"errors", "decision", *MIND},
     "model": {"errors", "decision", "modules", *MIND},
-    "results": {"errors", "decision", "model", *MIND},
-    "comparison": {"errors", "results", "world"},
+    "results": {"errors", "atomic", "decision", "model", *MIND},
+    "comparison": {"errors", "results", "world", "maps"},
     "scenarios": {
         "errors",
         "library",

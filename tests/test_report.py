@@ -1,4 +1,4 @@
-"""The report of a results folder that is built here by hand, in our writers' formats."""
+"""The report of a results folder that is built by hand, in our writers' formats."""
 
 import json
 import math
@@ -6,228 +6,44 @@ import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
-from html.parser import HTMLParser
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from results_folders import (
+    LAP_S,
+    PUBLISHED,
+    START_S,
+    Page,
+    build,
+    build_world,
+    building,
+    events,
+)
 
 from ssrics_like import library
 from ssrics_like.errors import MemoryFileError, ResultsError
 from ssrics_like.memory.landmark import Arc
-from ssrics_like.memory.store import save_topology
-from ssrics_like.memory.topological import TopologicalMemory
+from ssrics_like.perception.observation import Pose
 from ssrics_like.report import write_report
+from ssrics_like.report.contours import coarser as joined_cells
+from ssrics_like.report.contours import polygons
 from ssrics_like.report.episodes import chosen
 from ssrics_like.report.frames import Frame, frame_around, round_length
 from ssrics_like.report.graph_figure import ways_of
-from ssrics_like.report.labels import Room, around, spread
+from ssrics_like.report.labels import Room, around, legend_grid, spread
 from ssrics_like.report.novelty_figure import coarser
 from ssrics_like.report.pictures import Novelty, Outline
+from ssrics_like.report.plan import bounds_of
 from ssrics_like.report.reading import read_results
-from ssrics_like.report.records import Reflex
 from ssrics_like.report.spans import spans_of
 from ssrics_like.report.walls import raster
 from ssrics_like.report.words import clock, fraction_text, number_text, time_text
-from ssrics_like.results import tables
-from ssrics_like.results.files import csv_text, json_text
-
-START_S = 976053557.75
-LAP_S = 60.0
-LONGEST_TRACE = 500  # reflexes; the report reads no further
-SECTORS = ("left", "front", "right")
-RULES = {
-    "attend": {
-        "why": "Something <novel>.",
-        "utility": 0,
-        "rule": "=g>\nisa task\n==>\n~orienting>\n",
-    },
-    "declare": {"why": "A new place.", "utility": 0, "rule": "=g>\nisa task\n==>\n~g>\n"},
-}
-
-
-def place(t_s: float) -> tuple[float, float]:
-    """Return where the robot is: it goes round an ellipse of 20 m by 12 m, a lap a minute."""
-    turn = 2 * math.pi * t_s / LAP_S
-    return 10.0 * math.cos(turn), 6.0 * math.sin(turn)
-
-
-def events(number: int, t_s: float, *, landmark: str, found: bool) -> list[dict[str, Any]]:
-    """Return the trace of one reflex, 0.3 s from arrival to decision."""
-    chunk = {"isa": "reflex", "event": str(number), "sector": "left", "structure": "doorway"}
-    answer = "retrieved-chunk" if found else "retrieval-failure"
-    rows: list[tuple[float, str, str, str, Any]] = [
-        (0.0, "orienting", "set-buffer-chunk", "orienting", chunk),
-        (0.0, "procedural", "production-selected", "attend", None),
-        (0.05, "procedural", "production-fired", "attend", None),
-        (0.05, "procedural", "mod-buffer-chunk", "g", {"isa": "task", "state": "recall"}),
-        (0.05, "procedural", "clear-buffer", "orienting", None),
-        (0.05, "declarative", "start-retrieval", "", None),
-        (0.25, "declarative", answer, "", None),
-    ]
-    if found:
-        known = {"isa": "landmark", "id": landmark}
-        rows.append((0.25, "declarative", "set-buffer-chunk", "retrieval", known))
-    rows += [
-        (0.25, "procedural", "production-selected", "declare", None),
-        (0.3, "procedural", "production-fired", "declare", None),
-        (0.3, "procedural", "mod-buffer-chunk", "g", {"isa": "task", "state": "watch"}),
-    ]
-    return [
-        {"t_s": t_s + dt, "module": module, "action": action, "name": name}
-        | ({"chunk": chunk} if chunk else {})
-        for dt, module, action, name, chunk in rows
-    ]
-
-
-def build(
-    folder: Path,
-    *,
-    runs: int = 1,
-    laps: float = 2.0,
-    per_lap: int = 6,
-    poses: int = 400,
-    prefix: str = "L",
-    title: str = "",
-    memory: bool = True,
-    histograms: tuple[bool, bool] = (True, True),
-    intervals: bool = True,
-    walls: bool = True,
-    is_true: bool = False,
-    warnings: tuple[str, ...] = (),
-) -> Path:
-    """Write a results folder: on each lap `per_lap` reflexes at the same places."""
-    duration_s = LAP_S * laps
-    paths, decisions, marks, entries = [], [], [], []
-    for name in ("topology", "trace", "figures"):
-        (folder / name).mkdir(parents=True)
-    for run in range(runs):
-        graph = TopologicalMemory()
-        trace = [
-            {"t_s": START_S, "module": "goal", "action": "set-buffer-chunk", "name": "g",
-             "chunk": {"isa": "task", "state": "watch"}},
-            {"t_s": START_S, "module": "declarative", "action": "activation", "name": "",
-             "candidates": {"names": [], "total": [], "threshold": -5.0}},
-        ]  # fmt: skip
-        for t in np.linspace(0.0, duration_s, poses).tolist():
-            true = [*place(t), 0.0] if is_true else [None] * 3
-            x, y = place(t)
-            paths.append([run, START_S + t, x + is_true, y, 0.0, *true])
-        previous = ""
-        for number in range(int(laps * per_lap)):
-            t = (number + 0.5) * LAP_S / per_lap
-            x, y = place(t)
-            sector = SECTORS[number % 3]
-            name = f"{prefix}{number % per_lap + 1}"
-            new = number < per_lap
-            true = [x, y] if is_true else [None, None]
-            said = "declared" if new else "recognised" if number % 2 else "dismissed"
-            decisions.append(
-                [run, number, number * 10, START_S + t, START_S + t + 0.3, x + is_true, y, 0.0,
-                 *true, "laser", 0.8, sector, "doorway", said,
-                 "" if said == "dismissed" else name, "declare", -1.5, 0.9]
-            )  # fmt: skip
-            if number < LONGEST_TRACE:
-                trace += events(number, START_S + t, landmark=name, found=not new)
-            if new:
-                graph.add_landmark(name, x + is_true, y, 0.0, START_S + t, sector=sector)
-            if previous and previous != name:
-                graph.traverse(previous, name, 6.0, 0.5, 6.5)
-            previous = name
-        marks += [
-            [run, node.id, node.t_s, node.x_m, node.y_m, node.theta_rad, node.labels["sector"],
-             "doorway", 0.8, graph.degree(node.id), -2.5 if memory else None, 2]
-            for node in graph.nodes
-        ]  # fmt: skip
-        entries.append(
-            {"run": run, "scans": poses, "start_s": START_S, "duration_s": duration_s,
-             "path_length_m": 51.0 * laps, "novelty": {"intervals": 300, "novel_intervals": 200,
-                                                       "onsets": 9},
-             "decisions": {}, "undecided": 0, "landmarks": len(graph), "firings": 30, "seed": 7,
-             "ended": "end of log", "warnings": list(warnings)}
-        )  # fmt: skip
-        save_topology(graph, folder / "topology" / f"run-{run:03d}.json")
-        lines = "".join(json_text(event, indent=None) for event in trace)
-        (folder / "trace" / f"run-{run:03d}.jsonl").write_text(lines)
-        times = np.linspace(0.0, duration_s, 80)
-        turn = np.linspace(0.0, 2 * np.pi, 400) if walls else np.empty(0)
-        novelty = 0.5 + 0.4 * np.sin(times) if intervals else times[:0]
-        made = [(node.id, node.t_s - START_S) for node in graph.nodes] if memory else []
-        data = {
-            "outline": {"cell_m": 0.1, "x": (120 * np.cos(turn)).astype(int).tolist(),
-                        "y": (80 * np.sin(turn)).astype(int).tolist()},
-            "novelty": {"t_s": (START_S + times[: len(novelty)]).tolist(),
-                        "mean": novelty.tolist(), "least": (novelty - 0.1).tolist(),
-                        "largest": (novelty + 0.1).tolist()},
-            "histograms": {
-                kind: {"scan": 50, "tau": tau, "counts": [*[(1225 - last) // 9] * 9, last],
-                       "edges": [0.9 + 0.01 * i for i in range(11)]} if there else None
-                for (kind, tau, last), there in zip(
-                    (("novel", 0.343, 420), ("bored", 0.96, 1176)), histograms, strict=True)
-            },
-            "activation": {
-                "t_s": (START_S + times).tolist(),
-                "base_level": {
-                    name: [-0.5 * math.log(t - t0) if t > t0 else None for t in times.tolist()]
-                    for name, t0 in made
-                },
-            },
-        }  # fmt: skip
-        (folder / "figures" / f"run-{run:03d}.json").write_text(json_text(data, indent=None))
-    for file, header, rows in (
-        ("path.csv", tables.PATH, paths),
-        ("decisions.csv", tables.DECISIONS, decisions),
-        ("landmarks.csv", tables.LANDMARKS, marks),
-    ):
-        (folder / file).write_text(csv_text(header, rows))
-    manifest = {
-        "format": "ssrics-results",
-        "version": 1,
-        "scenario": {
-            "title": title,
-            "source": {"log": "robot.log"},
-            "perception": {"name": "human-like", "title": "", "interval": 50, "gradient": 0.99,
-                           "threshold": 0.75, "advance": "sliding"},
-            "productions": {"name": "landmark", "title": "Recognise, or declare", "rules": RULES},
-            "memory": {"name": "act-r", "decay": 0.5, "retrieval_threshold": -5.0,
-                       "mismatch_penalty": None},
-            "runs": runs,
-            "seed": 2006,
-        },
-        "versions": {"ssrics-like": "0", "numpy": "2"},
-        "seed": 2006,
-        "frame": "odometry",
-        "input": {"file": "robot.log", "format": "carmen", "sha256": "0" * 64},
-        "wall_clock": {"started": "2026-01-01T00:00:00+00:00", "seconds": 1.0},
-        "warnings": list(warnings),
-        "runs": entries,
-    }  # fmt: skip
-    (folder / "manifest.json").write_text(json_text(manifest))
-    return folder
-
-
-class Page(HTMLParser):
-    """What a test asks about a page."""
-
-    def __init__(self, path: Path) -> None:
-        super().__init__()
-        self.text = path.read_text(encoding="utf-8")
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.said: list[str] = []
-        self.feed(self.text)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append((tag, dict(attrs)))
-
-    def handle_data(self, data: str) -> None:
-        self.said.append(data)
-
-    @property
-    def words(self) -> str:
-        return re.sub(r"\s+", " ", " ".join(self.said))
+from ssrics_like.results.records import Reflex
+from ssrics_like.world.grid import GridMap
 
 
 @pytest.fixture(scope="module")
@@ -266,7 +82,9 @@ def test_the_page_says_what_came_out(page):
         assert words in page.words, words
 
 
-def test_the_page_asks_nothing_of_the_net(page):
+@pytest.mark.parametrize("kind", ["page", "world_page"])
+def test_the_page_asks_nothing_of_the_net(kind, request):
+    page = request.getfixturevalue(kind)
     outside = re.compile(r"(?:https?:)?//", re.IGNORECASE)
     for tag, attributes in page.tags:
         for name, value in attributes.items():
@@ -280,7 +98,9 @@ def test_the_page_asks_nothing_of_the_net(page):
     assert ("default-src 'none'") in page.text
 
 
-def test_ids_are_unique_and_references_meet_one(page):
+@pytest.mark.parametrize("kind", ["page", "world_page"])
+def test_ids_are_unique_and_references_meet_one(kind, request):
+    page = request.getfixturevalue(kind)
     ids = [a["id"] for _, a in page.tags if "id" in a]
     assert len(ids) == len(set(ids))
     links = {v[1:] for _, a in page.tags for k, v in a.items()
@@ -356,6 +176,99 @@ def test_several_runs_are_listed_and_the_first_is_shown(tmp_path):
     assert page.words.count("end of log") >= 3
 
 
+# Runs in a simulated building.
+
+WORLD_FIGURES = ["map", "locations", "runs", *FIGURES[1:]]
+
+
+@pytest.fixture(scope="module")
+def world(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("world")
+    return build_world(folder, poses=200, published=PUBLISHED, title="Complex map")
+
+
+@pytest.fixture(scope="module")
+def world_page(world: Path) -> Page:
+    return Page(write_report(world))
+
+
+def test_the_page_of_a_building_shows_plan_locations_and_coverage(world_page, world):
+    assert sum(tag == "svg" for tag, _ in world_page.tags) == len(WORLD_FIGURES)
+    for name in [*WORLD_FIGURES, "map-column"]:
+        ET.fromstring((world / "figures" / f"{name}.svg").read_text(encoding="utf-8"))
+    for words in ("The simulated building rooms.yaml, sensed with",
+                  "coverage 99.3 %", "The floor plan of the building", "metres, true positions",
+                  "location found (", "location missed (", "other labelled place (3)",
+                  "Table 1. In what share of 14 runs", "as published (report, table 1)",
+                  "5 office & archive", "78 %", "no frontier left", "World: rooms.yaml",
+                  "Rooms round a block", "speed_m_s 0.894", "of 84", "consistency"):  # fmt: skip
+        assert words in world_page.words, words
+    assert "own clock" not in world_page.words
+    assert "laser beams ended" not in world_page.words
+
+
+def test_the_table_of_locations_says_what_locations_csv_says(world_page, world):
+    scores = read_results(world).scores.scores
+    for place in scores.places:
+        low, high = place.interval
+        row = (
+            f"{place.found} of 14 {100 * place.share:.0f} % {100 * low:.0f}–{100 * high:.0f} % "
+            f"{100 * place.chance:.0f} %"
+        )
+        assert row in world_page.words
+
+
+def test_what_a_building_is_drawn_as_is_vectors_and_stands_once_in_a_figure(world):
+    for name in ("map", "map-column", "runs", "graph"):
+        assert "<image" not in (world / "figures" / f"{name}.svg").read_text()
+    plan = re.compile(r'<path id="runs-[^"]*" d="([^"]*)"')
+    longest = max(plan.findall((world / "figures" / "runs.svg").read_text()), key=len)
+    assert (world / "figures" / "runs.svg").read_text().count(longest) == 1
+
+
+def test_equal_buildings_give_equal_pages(world_page, tmp_path):
+    twin = build_world(tmp_path / "twin", poses=200, published=PUBLISHED, title="Complex map")
+    assert write_report(twin).read_text(encoding="utf-8") == world_page.text
+
+
+def test_names_and_labels_of_places_are_escaped(tmp_path):
+    evil = '<b>&"x'
+    places = tuple(replace(p, id=f"{p.id}{evil}", label=evil) for p in building().locations)
+    folder = build_world(
+        tmp_path / "r", runs=2, poses=30, places=replace(building(), locations=places)
+    )
+    page = Page(write_report(folder))
+    assert evil not in page.text
+    assert evil in page.words
+    for name in ("map", "map-column", "locations", "runs"):
+        ET.fromstring((folder / "figures" / f"{name}.svg").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(
+    ("kind", "says"),
+    [
+        ({"places": replace(building(), locations=())}, "floor plan"),
+        ({"places": building(doors=0)}, "No doorway is labelled"),
+        ({"places": building(others=False), "runs": 1}, "Table 1. In what share of 1 run "),
+        ({"misses": 1.0, "laps": 0.4}, "precision –"),
+    ],
+)  # fmt: skip
+def test_poor_buildings_make_a_page_too(kind, says, tmp_path):
+    folder = build_world(tmp_path / "r", **{"runs": 2, "poses": 30, **kind})
+    page = Page(write_report(folder))
+    assert says in page.words
+    assert "Traceback" not in page.words
+
+
+def test_figures_of_a_building_do_not_stay_in_the_folder_of_a_log(tmp_path):
+    folder = build(tmp_path / "r", poses=20)
+    stale = [folder / "figures" / f"{name}.svg" for name in ("locations", "map-column", "runs")]
+    for file in stale:
+        file.write_text("old")
+    write_report(folder)
+    assert not any(file.exists() for file in stale)
+
+
 def test_simulated_runs_are_drawn_at_the_true_positions(tmp_path):
     run = read_results(build(tmp_path / "r", is_true=True)).shown
     assert run.path[0].tolist() == [0.0, 10.0, 0.0]
@@ -416,8 +329,9 @@ def test_drawing_costs_nothing_until_it_is_asked_for():
 
 
 def test_the_shipped_log_makes_a_report(tmp_path):
+    from ssrics_like.scenarios.resolving import resolve
     from ssrics_like.scenarios.runner import run_scenario
-    from ssrics_like.scenarios.schema import LogSettings, Scenario, resolve
+    from ssrics_like.scenarios.schema import LogSettings, Scenario
 
     log = library.root() / "scenarios" / "logs" / "demo.log.gz"
     scenario = Scenario(source=LogSettings(log=str(log)))
@@ -516,6 +430,55 @@ def test_walls_land_where_their_cells_are():
     share, (left, right, bottom, top) = raster(outline, Frame(-1.0, 2.0, 0.0, 1.0, 10.0))
     assert (left, right, bottom, top) == (-1.0, 2.0, 0.0, 1.0)
     assert np.argwhere(share).tolist() == [[0, 0], [1, 2], [1, 5]]
+
+
+def winding(x: float, y: float, rings: list[np.ndarray]) -> int:
+    """Count how often closed polygons run round a point, counter-clockwise positive."""
+    total = 0.0
+    for ring in rings:
+        angles = [math.atan2(v - y, u - x) for u, v in ring.tolist()]
+        for a, b in zip(angles, angles[1:] + angles[:1], strict=True):
+            total += math.remainder(b - a, math.tau)
+    return round(total / math.tau)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(1, 6), st.integers(1, 6), st.integers(0, 2**32 - 1))
+def test_outlines_run_round_filled_cells_once_and_round_no_other(rows, columns, seed):
+    mask = np.random.default_rng(seed).random((rows, columns)) < 0.5
+    rings = polygons(mask)
+    for row in range(-1, rows + 1):
+        for column in range(-1, columns + 1):
+            inside = 0 <= row < rows and 0 <= column < columns and mask[row, column]
+            assert winding(column + 0.5, row + 0.5, rings) == inside
+    for ring in rings:  # every corner is one
+        steps = np.sign(np.diff(np.vstack([ring, ring[:1]]), axis=0))
+        assert (np.abs(steps).sum(axis=1) == 1).all()
+        assert (steps != np.roll(steps, 1, axis=0)).any(axis=1).all()
+
+
+def test_squares_of_cells_are_filled_if_any_cell_is():
+    mask = np.zeros((5, 4), bool)
+    mask[4, 3] = mask[0, 1] = True
+    joined = joined_cells(mask, 2)
+    assert np.argwhere(joined).tolist() == [[0, 0], [2, 1]]
+    assert joined.shape == (3, 2)
+
+
+def test_a_plan_lies_where_its_map_lies():
+    grid = GridMap(np.array([[2, 2, 2], [2, 0, 1]], np.uint8), 0.5, Pose(10.0, 20.0, math.pi / 2))
+    # Columns 1 and 2 of row 1: x from .5 to 1.5 and y from .5 to 1 of the grid, turned left.
+    found = {tuple(corner) for corner in bounds_of(grid).round(9).tolist()}
+    assert found == {(9.5, 20.5), (9.0, 20.5), (9.5, 21.5), (9.0, 21.5)}
+    assert len(bounds_of(GridMap(np.full((2, 2), 2, np.uint8), 0.5))) == 0
+
+
+def test_a_legend_takes_as_many_rows_as_it_needs():
+    texts = ["landmark, left (12)"] * 5
+    assert legend_grid(texts, 1000.0) == (5, 1)
+    assert legend_grid(texts, 350.0) == (3, 2)
+    assert legend_grid(texts, 1.0) == (1, 5)
+    assert legend_grid([], 100.0) == (1, 1)
 
 
 def test_a_large_building_is_drawn_in_fewer_pixels():

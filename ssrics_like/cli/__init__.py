@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 import ssrics_like
-from ssrics_like.cli import check, library, replay, report, run, schema
+from ssrics_like.cli import check, library, maps, replay, report, run, schema
 from ssrics_like.errors import SsricsError
 
 USER_ERROR = 1
@@ -40,6 +40,18 @@ app.command(library.list_entries, name="list", help_epilogue="")
 app.command(library.show, help_epilogue="")
 app.command(report.report, help_epilogue="")
 app.command(schema.schema, help_epilogue="")
+map_app = App(
+    name="map",
+    help="Draw floor plans, make buildings up, look at maps.",
+    help_epilogue="""For example:
+
+    ssrics map generate -o maps/ --seed 7
+    ssrics map show maps/map.yaml -o picture.png""",
+)
+map_app.command(maps.draw, help_epilogue="")
+map_app.command(maps.generate, help_epilogue="")
+map_app.command(maps.show, help_epilogue="")
+app.command(map_app)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -14,7 +14,7 @@ def list_entries(kind: str | None = None) -> None:
     Parameters
     ----------
     kind
-        Only one folder: productions, perception, memory or scenarios.
+        Only one kind: productions, perception, memory, scenarios or robots.
     """
     from ssrics_like import library, settings
 
@@ -39,7 +39,7 @@ def show(kind: str, name: str) -> None:
     Parameters
     ----------
     kind
-        productions, perception, memory or scenarios.
+        productions, perception, memory, scenarios or robots.
     name
         The entry.
     """

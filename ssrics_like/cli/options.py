@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter, Token
+from cyclopts import Parameter, Token, validators
 
 
 def _whole(_kind: type, tokens: Sequence[Token]) -> int:
@@ -16,6 +16,13 @@ def _whole(_kind: type, tokens: Sequence[Token]) -> int:
 
 Whole = Annotated[int, Parameter(converter=_whole)]
 Out = Annotated[Path | None, Parameter(name=["--out", "-o"])]
+NeededOut = Annotated[Path, Parameter(name=["--out", "-o"])]
+Pair = Annotated[tuple[float, float], Parameter(negative="")]
 Overrides = Annotated[tuple[str, ...], Parameter(name="--set", negative="", consume_multiple=False)]
+Runs = Annotated[int | None, Parameter(name=["--runs", "-n"], converter=_whole)]
+Jobs = Annotated[
+    int | None,
+    Parameter(name=["--jobs", "-j"], converter=_whole, validator=validators.Number(gte=1)),
+]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative="")]
 Flag = Annotated[bool, Parameter(negative="")]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ssrics_like.cli.options import Flag, Out, Overrides, Quiet, Whole
+from ssrics_like.cli.options import Flag, Jobs, Out, Overrides, Quiet, Whole
 
 
 def replay(
@@ -21,6 +21,7 @@ def replay(
     frame: str | None = None,
     fallback_rate: float = 10.0,
     strict: Flag = False,
+    jobs: Jobs = None,
     resume: Flag = False,
     quiet: Quiet = False,
 ) -> None:
@@ -58,13 +59,17 @@ def replay(
         Scans per second, assumed where the log's times are unusable.
     strict
         Stop at the first malformed line instead of counting and reporting it.
+    jobs
+        How many runs at the same time; as many as there are cores if left out.
     resume
         Keep finished runs that are in the folder.
     quiet
         Print nothing but errors.
     """
     from ssrics_like.cli.execute import execute
-    from ssrics_like.scenarios.schema import make_scenario, resolve
+    from ssrics_like.scenarios.pool import cores
+    from ssrics_like.scenarios.resolving import resolve
+    from ssrics_like.scenarios.schema import make_scenario
 
     scenario = make_scenario(
         {
@@ -85,4 +90,5 @@ def replay(
     )
     resolved = resolve(scenario, Path.cwd(), list(set_))
     name = log.name.split(".")[0] or "log"
-    execute(resolved, out or Path("out") / name, resume=resume, quiet=quiet)
+    workers = cores() if jobs is None else jobs
+    execute(resolved, out or Path("out") / name, resume=resume, jobs=workers, quiet=quiet)

@@ -11,8 +11,14 @@ def report(folder: Path) -> None:
     Parameters
     ----------
     folder
-        A folder that run or replay has written.
+        A folder that run or replay has written; that of a scenario with variants gets the page
+        that compares them.
     """
-    from ssrics_like.report import write_report
+    from ssrics_like.comparison import write_scores
+    from ssrics_like.report import has_variants, write_report, write_variants_report
 
+    if has_variants(folder):
+        print(f"report: {write_variants_report(folder)}")
+        return
+    write_scores(folder)
     print(f"report: {write_report(folder)}")

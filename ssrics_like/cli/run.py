@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ssrics_like.cli.options import Flag, Out, Overrides, Quiet
+from ssrics_like.cli.options import Flag, Jobs, Out, Overrides, Quiet, Runs
 
 
 def run(
@@ -12,6 +12,8 @@ def run(
     *,
     out: Out = None,
     set_: Overrides = (),
+    runs: Runs = None,
+    jobs: Jobs = None,
     resume: Flag = False,
     quiet: Quiet = False,
 ) -> None:
@@ -20,7 +22,8 @@ def run(
     For example:
 
         ssrics run demo -o out/
-        ssrics run my-scenario.yaml -o out/ --set runs=3
+        ssrics run complex --jobs 2
+        ssrics run my-scenario.yaml -n 100 -o out/ --set perception.mark=onset
 
     Parameters
     ----------
@@ -30,15 +33,31 @@ def run(
         Folder for the results; out/NAME-OF-THE-SCENARIO if left out.
     set_
         Override one value, key=value; may be given again.
+    runs
+        Number of runs, instead of the scenario's.
+    jobs
+        How many runs at the same time; as many as there are cores if left out. The results are
+        the same.
     resume
         Keep finished runs that are in the folder.
     quiet
         Print nothing but errors.
     """
     from ssrics_like import library
-    from ssrics_like.cli.execute import execute
-    from ssrics_like.scenarios.schema import load_scenario, resolve
+    from ssrics_like.cli.execute import execute, execute_variants
+    from ssrics_like.scenarios.pool import cores
+    from ssrics_like.scenarios.resolving import resolve
+    from ssrics_like.scenarios.schema import read_scenario
+    from ssrics_like.scenarios.variants import resolve_variants
 
     path = library.find("scenarios", scenario)
-    resolved = resolve(load_scenario(path), path.parent, list(set_))
-    execute(resolved, out or Path("out") / path.stem, resume=resume, quiet=quiet)
+    read, document = read_scenario(path)
+    overrides = [*set_, *([] if runs is None else [f"runs={runs}"])]
+    folder = out or Path("out") / path.stem
+    workers = cores() if jobs is None else jobs
+    if read.factors or read.variants:
+        each = resolve_variants(read, path.parent, overrides, where=document.where)
+        execute_variants(read, each, folder, resume=resume, jobs=workers, quiet=quiet)
+        return
+    resolved = resolve(read, path.parent, overrides, where=document.where)
+    execute(resolved, folder, resume=resume, jobs=workers, quiet=quiet)

@@ -13,7 +13,7 @@ def schema(kind: str) -> None:
     Parameters
     ----------
     kind
-        scenario, perception, memory or productions.
+        scenario, perception, memory, productions or plan.
     """
     import json
 

@@ -9,10 +9,12 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
 
+from ssrics_like.report.location_tables import locations_of
 from ssrics_like.report.markers import TIPPED_MAX
-from ssrics_like.report.records import DECISIONS, Landmark, Results, Run
+from ssrics_like.report.records import Results
 from ssrics_like.report.style import decision_order
-from ssrics_like.report.words import number_text, time_text
+from ssrics_like.report.words import number_text, percent_text, time_text
+from ssrics_like.results.records import DECISIONS, Landmark, Run
 
 CLOCK_STEP_S = 1e-6  # the last decimal of the tables
 EARLIEST_DATE_S, LATEST_DATE_S = 631152000.0, 4102444800.0
@@ -22,16 +24,18 @@ EARLIEST_DATE_S, LATEST_DATE_S = 631152000.0, 4102444800.0
 def content_of(results: Results) -> dict[str, Any]:
     """Return all that the template shows besides figures, as plain values."""
     run, scenario, manifest = results.shown, results.scenario, results.manifest
-    log = str(manifest["input"]["file"])
+    source = str(manifest["input"]["file"])
     return {
-        "title": str(scenario["title"]) or log,
-        "log": log,
+        "title": str(scenario["title"]) or source,
+        "source": f"The simulated building {source}" if scenario.get("world") else source,
         "modules": {
             kind: str(scenario[kind]["name"]) for kind in ("perception", "productions", "memory")
         },
         "shown": run.number,
         "start": _start(run),
         "cards": cards(run),
+        "locations": locations_of(results.scores),
+        "has_coverage": any(each.coverage is not None for each in results.runs),
         "warnings": [str(text) for text in manifest["warnings"]],
         "runs": [_run_row(each) for each in results.runs],
         "decisions": _decisions_shown(results.runs),
@@ -39,7 +43,10 @@ def content_of(results: Results) -> dict[str, Any]:
         "linked": len(run.landmarks) <= TIPPED_MAX,
         "rules_title": str(scenario["productions"].get("title", "")),
         "rules": _rules(run, scenario["productions"]["rules"]),
-        "settings": [_settings(kind, scenario[kind]) for kind in ("perception", "memory")],
+        "settings": [
+            *_world_settings(results),
+            *(_settings(kind, scenario[kind]) for kind in ("perception", "memory")),
+        ],
         "facts": _facts(results),
         # Equal results make equal pages, so the page leaves out when they were made.
         "manifest": json.dumps(
@@ -62,6 +69,7 @@ def cards(run: Run) -> list[dict[str, str]]:
         ("scans", _grouped(int(run.entry["scans"])), ""),
         ("duration", time_text(run.duration_s), ""),
         ("path", f"{run.length_m:.1f} m", ""),
+        *_coverage_card(run),
         ("novel intervals", share, f"{_grouped(novel)} of {_grouped(intervals)}"),
         ("reflexes", _grouped(reflexes), f"{undecided} undecided" if undecided else ""),
     ]
@@ -75,6 +83,13 @@ def cards(run: Run) -> list[dict[str, str]]:
         ("marks per 100 m", "–" if math.isnan(rate) else f"{rate:.1f}", "declared or recognised")
     )
     return [{"name": name, "value": value, "note": note} for name, value, note in found]
+
+
+def _coverage_card(run: Run) -> list[tuple[str, str, str]]:
+    """Return how much of the building was seen; nothing for a log."""
+    if run.coverage is None:
+        return []
+    return [("coverage", percent_text(run.coverage, 1), "of the reachable space")]
 
 
 def _grouped(count: int) -> str:
@@ -105,6 +120,7 @@ def _run_row(run: Run) -> dict[str, Any]:
         "scans": run.entry["scans"],
         "duration": time_text(run.duration_s),
         "length": f"{run.length_m:.1f}",
+        "coverage": "–" if run.coverage is None else percent_text(run.coverage, 1),
         "decided": dict(run.decided),
         "landmarks": len(run.landmarks),
         "rate": "–" if math.isnan(rate) else f"{rate:.1f}",
@@ -144,6 +160,16 @@ def _rules(run: Run, rules: Mapping[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
+def _world_settings(results: Results) -> list[dict[str, Any]]:
+    """Return what the world was set to, without what was left out; nothing for a log."""
+    world = results.scenario.get("world")
+    if not world:
+        return []
+    given = {key: value for key, value in world.items() if value not in (None, [], {})}
+    title = results.building.title if results.building else ""
+    return [_settings("world", {"name": results.manifest["input"]["file"], "title": title} | given)]
+
+
 def _settings(kind: str, profile: Mapping[str, Any]) -> dict[str, Any]:
     """Return a profile's settings, its title and source apart."""
     values = {
@@ -169,6 +195,8 @@ def _value(value: Any) -> str:
         return f"{value:g}".replace("-", "−")
     if isinstance(value, dict):
         return ", ".join(f"{k} {_value(v)}" for k, v in value.items()) or "none"
+    if isinstance(value, list):
+        return "; ".join(_value(item) for item in value) or "none"
     return str(value)
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ssrics_like.errors import ResultsError
-from ssrics_like.report.records import Reflex, Run
 from ssrics_like.report.spans import Span, spans_of
+from ssrics_like.results.records import Reflex, Run
 
 EPISODES_MAX = 4
 LOOKED_AT = 400

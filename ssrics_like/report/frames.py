@@ -95,8 +95,12 @@ def frame_around(
     )
 
 
-def show_frame(axes: Axes, frame: Frame) -> None:
-    """Set the limits of a map's axes, box them in, and draw a scale bar."""
+def show_frame(axes: Axes, frame: Frame, *, low: bool = False) -> None:
+    """Set the limits of a map's axes, box them in, and draw a scale bar.
+
+    The bar carries its length above it, or, to be clear of the walls of a plan, lies `low` with
+    its length behind it.
+    """
     axes.set_xlim(frame.left, frame.right)
     axes.set_ylim(frame.bottom, frame.top)
     axes.set_aspect("equal")
@@ -106,16 +110,17 @@ def show_frame(axes: Axes, frame: Frame) -> None:
     axes.tick_params(length=2.5, labelsize=SMALL_PT)
     length_m = round_length((frame.right - frame.left) * 0.16)
     x = frame.left + 10 / frame.points_per_m
-    y = frame.bottom + 9 / frame.points_per_m
+    y = frame.bottom + (6 if low else 9) / frame.points_per_m
     end = 2.5 / frame.points_per_m
     axes.plot(
         [x, x, x, x + length_m, x + length_m, x + length_m],
         [y + end, y - end, y, y, y - end, y + end],
         color=INK, linewidth=1.1, solid_capstyle="butt", zorder=20,
     )  # fmt: skip
+    at, offset = ((x + length_m, y), (4, 0)) if low else ((x + length_m / 2, y), (0, 3))
     axes.annotate(
-        f"{length_m:g} m", (x + length_m / 2, y), (0, 3), textcoords="offset points",
-        ha="center", va="bottom", fontsize=SMALL_PT, gid="halo-scale", zorder=20,
+        f"{length_m:g} m", at, offset, textcoords="offset points", ha="left" if low else "center",
+        va="center_baseline" if low else "bottom", fontsize=SMALL_PT, gid="halo-scale", zorder=20,
     )  # fmt: skip
 
 

@@ -11,13 +11,13 @@ import numpy as np
 
 from ssrics_like.memory.landmark import Arc
 from ssrics_like.report import style
+from ssrics_like.report.background import draw_background, extent_of
 from ssrics_like.report.drawing import HALO, Drawing
 from ssrics_like.report.frames import Frame, frame_around, show_frame
 from ssrics_like.report.labels import Room, text_half_size
-from ssrics_like.report.map_figure import HEIGHTS_PT, MARGINS_PT, extent_of, frame_text
+from ssrics_like.report.map_figure import HEIGHTS_PT, MARGINS_PT, frame_text
 from ssrics_like.report.markers import draw_landmarks
 from ssrics_like.report.records import Results
-from ssrics_like.report.walls import draw_walls
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -67,11 +67,12 @@ def draw_graph(results: Results) -> Drawing | None:
     left, right, bottom, _ = MARGINS_PT
     top = 6.0
     width_pt = style.WIDTH_IN * style.POINTS - left - right
-    frame = frame_around(extent_of(run, results.pictures.outline), width_pt, HEIGHTS_PT)
+    everything = extent_of(results, run, results.pictures.outline)
+    frame = frame_around(everything, width_pt, HEIGHTS_PT)
     figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
     axes = style.place_axes(figure, left, right, bottom, top)
-    draw_walls(axes, results.pictures.outline, frame, strength=0.45)
-    show_frame(axes, frame)
+    draw_background(axes, results, frame, strength=0.45)
+    show_frame(axes, frame, low=results.building is not None)
     room = Room(frame.width_pt, frame.height_pt)
     room.take(60, 10, 60, 14)  # the scale bar
     ways = ways_of(results.arcs)

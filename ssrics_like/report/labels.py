@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Sequence
 
@@ -11,6 +12,8 @@ from numpy.typing import NDArray
 GLYPH_WIDTH = 0.65
 """Width of a digit or letter over the size of its font, a little on the wide side."""
 LINE_STEP_PT = 1.5
+LEGEND_GLYPH = 0.88
+"""Words in a legend are longer than names, so that wide and narrow letters even out."""
 
 
 class Room:
@@ -89,6 +92,34 @@ def around(
 def text_half_size(text: str, size_pt: float) -> tuple[float, float]:
     """Estimate half the width and height of a line of text, points."""
     return len(text) * GLYPH_WIDTH * size_pt / 2, size_pt * 0.55
+
+
+def legend_grid(
+    texts: Sequence[str], width_pt: float, size_pt: float = 8.0, around_pt: float = 24.0
+) -> tuple[int, int]:
+    """Return in how many columns and rows the entries of a legend fit into a width.
+
+    Parameters
+    ----------
+    texts : sequence of str
+        The entries' labels; a legend is filled column by column.
+    width_pt : float
+        What there is.
+    size_pt : float
+        Size of the font.
+    around_pt : float
+        Width of an entry's sign, and of what lies between two entries.
+    """
+    widths = [2 * text_half_size(text, size_pt)[0] * LEGEND_GLYPH + around_pt for text in texts]
+    for rows in range(1, len(texts) + 1):
+        columns = math.ceil(len(texts) / rows)
+        # As matplotlib fills them: the first columns have one entry more than the last.
+        fuller = len(texts) - columns * (rows - 1)
+        ends = np.cumsum([rows if i < fuller else rows - 1 for i in range(columns)]).tolist()
+        parts = itertools.pairwise([0, *ends])
+        if sum(max(widths[a:b], default=0.0) for a, b in parts) <= width_pt:
+            return columns, rows
+    return 1, max(len(texts), 1)
 
 
 def spread(wanted: Sequence[float], gap: float, low: float, high: float) -> list[float]:

@@ -1,4 +1,4 @@
-"""The map: walls as the laser saw them, the path, and what was decided where."""
+"""The map: what lies under it, the path, what was decided where, and the labelled places."""
 
 from __future__ import annotations
 
@@ -9,21 +9,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssrics_like.report import style
+from ssrics_like.report.background import draw_background, extent_of
 from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.frames import Frame, frame_around, kept_apart, show_frame
-from ssrics_like.report.labels import Room, around, text_half_size
-from ssrics_like.report.markers import SIZE_PT, draw_label, draw_landmarks, filled
-from ssrics_like.report.pictures import Outline
-from ssrics_like.report.records import Reflex, Results, Run
-from ssrics_like.report.walls import draw_walls
+from ssrics_like.report.labels import Room, around, legend_grid, text_half_size
+from ssrics_like.report.markers import (
+    SIZE_PT,
+    draw_label,
+    draw_landmarks,
+    filled,
+    take_landmarks,
+)
+from ssrics_like.report.place_markers import PlaceStyle, draw_places, places_legend
+from ssrics_like.report.records import Results
+from ssrics_like.results.records import Reflex
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARGINS_PT = (26.0, 6.0, 28.0, 24.0)  # left, right, bottom, top
 HEIGHTS_PT = (230.0, 640.0)
+LEGEND_ROW_PT = 12.5
 PATH_PARTS = 48
-WALLS_CUT = 0.001  # share of the outline's cells that may lie beyond each edge of the map
 OTHERS = ("recognised", "unsure", "dismissed", "overwritten")
 """Decisions that make no new landmark."""
 
@@ -33,49 +40,70 @@ def draw_map(results: Results) -> Drawing:
     run = results.shown
     left, right, bottom, top = MARGINS_PT
     width_pt = style.WIDTH_IN * style.POINTS - left - right
-    frame = frame_around(extent_of(run, results.pictures.outline), width_pt, HEIGHTS_PT)
+    handles = _legend(results)
+    columns, rows = legend_grid([handle.get_label() for handle in handles], width_pt)
+    top += LEGEND_ROW_PT * (rows - 1)
+    places = extent_of(results, run, results.pictures.outline)
+    frame = frame_around(places, width_pt, HEIGHTS_PT)
     figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
     axes = style.place_axes(figure, left, right, bottom, top)
-    draw_walls(axes, results.pictures.outline, frame)
-    show_frame(axes, frame)
+    draw_background(axes, results, frame)
+    show_frame(axes, frame, low=results.building is not None)
     draw_path(axes, run.path, frame)
     _draw_reflexes(axes, run.reflexes, frame)
-    tips = draw_landmarks(axes, run.landmarks, frame, _ends(axes, run.path, frame))
-    where = frame_text(results)
-    axes.set_xlabel(f"metres, {where}", loc="right", fontsize=style.SMALL_PT)
-    handles = _legend(run)
+    room = Room(frame.width_pt, frame.height_pt)
+    room.take(60, 10, 60, 14)  # the scale bar
+    if results.building:
+        take_landmarks(run.landmarks, frame, room)
+    _draw_ends(axes, run.path, frame, room)
+    tips: dict[str, str] = {}
+    if results.scores:
+        found = results.scores.scores.found[0].tolist()
+        tips |= draw_places(axes, results.scores, found, frame, room, PlaceStyle())
+    tips |= draw_landmarks(axes, run.landmarks, frame, room)
+    axes.set_xlabel(f"metres, {frame_text(results)}", loc="right", fontsize=style.SMALL_PT)
     if handles:
         axes.legend(
             handles=handles, loc="lower left", bbox_to_anchor=(0, 1, 1, 0), borderaxespad=0.7,
-            ncols=len(handles), columnspacing=1.4, handlelength=1.0,
+            ncols=columns, columnspacing=1.4, handlelength=1.0,
         )  # fmt: skip
+    over = "the floor plan" if results.building else "the walls seen by the laser"
+    return Drawing(
+        "map",
+        figure,
+        f"Map of the path with {len(run.landmarks)} landmarks over {over}",
+        _caption(results, hint=bool(tips)),
+        tips,
+    )
+
+
+def _caption(results: Results, *, hint: bool) -> str:
+    """Say what is seen on the map."""
+    run = results.shown
+    ground = (
+        "The floor plan of the building: walls dark, what nobody knows pale."
+        if results.building
+        else "Grey: where laser beams ended, drawn from the scans."
+    )
     rings = (
         "; rings are reflexes at which one was recognised again"
         if run.decided["recognised"]
         else ""
     )
-    hint = " Rest the pointer on a landmark for its particulars." if tips else ""
-    return Drawing(
-        "map",
-        figure,
-        f"Map of the path with {len(run.landmarks)} landmarks over the walls seen by the laser",
-        "Grey: where laser beams ended, drawn from the scans. The line is the robot's path, darker "
+    text = (
+        f"{ground} The line is the robot's path, darker "
         "with time. Filled dots are landmarks where they were declared, coloured by the sector in "
-        f"which the largest reading lay{rings}; where "
-        f"it is crowded, some carry no name.{hint}",
-        tips,
+        f"which the largest reading lay{rings}; where it is crowded, some carry no name."
     )
-
-
-def extent_of(run: Run, outline: Outline) -> NDArray[np.float64]:
-    """Return places, shape (n, 2), that bound a run's path, landmarks and walls."""
-    marks = [(mark.drawn_x_m, mark.drawn_y_m) for mark in run.landmarks]
-    places = [run.path[:, 1:], np.array(marks, np.float64).reshape(-1, 2)]
-    if len(outline.x):
-        # Stray beams, through a door or window, may end outside.
-        cells = np.column_stack([outline.x, outline.y]) * outline.cell_m
-        places.append(np.quantile(cells, [WALLS_CUT, 1 - WALLS_CUT], axis=0))
-    return np.concatenate(places)
+    if results.scores:
+        radius_m = results.scores.scores.radius_m
+        text += (
+            f" Numbered circles, of {radius_m:g} m radius, are the locations that people "
+            "designated; the number is filled where this run marked one inside the circle, and "
+            "hollow where it did not. After the report's figures 3 and 4; figures/map-column.svg "
+            "is the same for one column of a paper."
+        )
+    return text + (" Rest the pointer on a landmark for its particulars." if hint else "")
 
 
 def frame_text(results: Results) -> str:
@@ -116,12 +144,10 @@ def _thinned(points: NDArray[np.float64], step_m: float) -> NDArray[np.float64]:
     return chosen
 
 
-def _ends(axes: Axes, path: NDArray[np.float64], frame: Frame) -> Room:
-    """Mark start and end of the path; return what room labels have left."""
-    room = Room(frame.width_pt, frame.height_pt)
-    room.take(60, 10, 60, 14)  # the scale bar
+def _draw_ends(axes: Axes, path: NDArray[np.float64], frame: Frame, room: Room) -> None:
+    """Mark start and end of the path."""
     if len(path) == 0:
-        return room
+        return
     room.cross(np.column_stack(frame.points(path[:, 1], path[:, 2])))
     start, end = path[0, 1:], path[-1, 1:]
     together = np.hypot(*(end - start)) * frame.points_per_m < 10  # noqa: PLR2004 - points
@@ -137,7 +163,6 @@ def _ends(axes: Axes, path: NDArray[np.float64], frame: Frame) -> Room:
         place = room.find(around(px, py, 5.0, *half), *half)
         if place is not None:
             draw_label(axes, (x, y), (px, py), place, text, weight="bold")
-    return room
 
 
 def _draw_reflexes(axes: Axes, reflexes: tuple[Reflex, ...], frame: Frame) -> None:
@@ -164,10 +189,11 @@ def _look(decision: str, colour: str) -> dict[str, Any]:
     return {"linestyle": "none", "color": colour, "markeredgewidth": 0.9, **looks[decision]}
 
 
-def _legend(run: Run) -> list[Any]:
+def _legend(results: Results) -> list[Any]:
     """Return a handle for each kind of thing that is on the map."""
     from matplotlib.lines import Line2D
 
+    run = results.shown
     handles: list[Any] = []
     known = [s for s in style.SECTORS if any(m.sector == s for m in run.landmarks)]
     others = sorted({m.sector for m in run.landmarks} - set(style.SECTORS))
@@ -181,4 +207,7 @@ def _legend(run: Run) -> list[Any]:
         if count:
             look = _look(decision, style.MUTED)
             handles.append(Line2D([], [], label=f"{decision} ({count})", **look))
+    if results.scores:
+        found = results.scores.scores.found[0].tolist()
+        handles += places_legend(results.scores, found, PlaceStyle())
     return handles

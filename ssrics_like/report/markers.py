@@ -8,8 +8,8 @@ from ssrics_like.report import style
 from ssrics_like.report.drawing import HALO
 from ssrics_like.report.frames import Frame
 from ssrics_like.report.labels import Room, around, text_half_size
-from ssrics_like.report.records import Landmark
 from ssrics_like.report.words import seen_text, time_text
+from ssrics_like.results.records import Landmark
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,9 +43,8 @@ def draw_landmarks(
     axes: Axes, landmarks: tuple[Landmark, ...], frame: Frame, room: Room
 ) -> dict[str, str]:
     """Draw landmarks with their names where there is room; return tips by gid."""
-    size = SIZE_PT if len(landmarks) <= CROWD else CROWD_SIZE_PT
+    size = _size(landmarks)
     if len(landmarks) > TIPPED_MAX:
-        size = BULK_SIZE_PT
         for sector in sorted({mark.sector for mark in landmarks}):
             places = [(m.drawn_x_m, m.drawn_y_m) for m in landmarks if m.sector == sector]
             axes.plot(*zip(*places, strict=True), zorder=8, **filled(sector, size))
@@ -54,8 +53,7 @@ def draw_landmarks(
         gid = f"lm{i}"
         axes.plot(mark.drawn_x_m, mark.drawn_y_m, gid=gid, zorder=8, **filled(mark.sector, size))
         tips[gid] = describe(mark)
-    for mark in landmarks:
-        room.take(*frame.points(mark.drawn_x_m, mark.drawn_y_m), size / 2, size / 2)
+    take_landmarks(landmarks, frame, room)
     order = sorted(range(len(landmarks)), key=lambda i: (-landmarks[i].visits, i))
     for i in order[:LABELS_MAX]:
         mark = landmarks[i]
@@ -65,6 +63,20 @@ def draw_landmarks(
         if place is not None:
             draw_label(axes, (mark.drawn_x_m, mark.drawn_y_m), at, place, mark.name)
     return tips
+
+
+def take_landmarks(landmarks: tuple[Landmark, ...], frame: Frame, room: Room) -> None:
+    """Note that landmarks' dots are taken, so that no label covers them."""
+    half = _size(landmarks) / 2
+    for mark in landmarks:
+        room.take(*frame.points(mark.drawn_x_m, mark.drawn_y_m), half, half)
+
+
+def _size(landmarks: tuple[Landmark, ...]) -> float:
+    """Return the size of each dot, points; the more there are, the smaller."""
+    if len(landmarks) > TIPPED_MAX:
+        return BULK_SIZE_PT
+    return SIZE_PT if len(landmarks) <= CROWD else CROWD_SIZE_PT
 
 
 def filled(sector: str, size: float) -> dict[str, Any]:

@@ -8,14 +8,17 @@ from typing import TYPE_CHECKING
 from ssrics_like.errors import ResultsError
 from ssrics_like.report import style
 from ssrics_like.report.activation_figure import draw_activation
+from ssrics_like.report.column_figure import draw_column_map
 from ssrics_like.report.content import content_of
 from ssrics_like.report.drawing import as_svg
 from ssrics_like.report.graph_figure import draw_graph
 from ssrics_like.report.histogram_figure import draw_histograms
+from ssrics_like.report.locations_figure import draw_locations
 from ssrics_like.report.map_figure import draw_map
 from ssrics_like.report.novelty_figure import draw_novelty
 from ssrics_like.report.reading import read_results
 from ssrics_like.report.records import Results
+from ssrics_like.report.rendering import rendered
 from ssrics_like.report.runs_figure import draw_runs
 from ssrics_like.report.timeline_figure import draw_timeline
 from ssrics_like.results.files import write_atomically
@@ -29,6 +32,8 @@ PAGE = "report.html"
 
 FIGURES: tuple[tuple[str, str, str, Callable[[Results], Drawing | None], str], ...] = (
     ("map", "Map", "Map", draw_map, ""),
+    ("locations", "Locations", "Locations found", draw_locations,
+     "No doorway is labelled on this map, so that no location is designated."),
     ("runs", "Runs", "All runs", draw_runs, ""),
     ("novelty", "Novelty", "Novelty over time", draw_novelty,
      "The run ended before the first interval was complete, so there is no novelty to show."),
@@ -70,14 +75,20 @@ def write_report(folder: Path) -> Path:
     results = read_results(folder)
     with style.context():
         sections = [_section(results, *figure) for figure in FIGURES]
+        column = draw_column_map(results)
+        figures = {section["name"]: section["svg"] for section in sections}
+        figures["map-column"] = as_svg(column) if column else ""
+    if results.scores is None:
+        sections = [section for section in sections if section["name"] != "locations"]
     page = folder / PAGE
-    html = _rendered(results, [s for s in sections if s["svg"] or s["otherwise"]])
+    shown = [section for section in sections if section["svg"] or section["otherwise"]]
+    html = rendered("page.html", {**content_of(results), "sections": shown})
     try:
         (folder / "figures").mkdir(exist_ok=True)
-        for section in sections:
-            file = folder / "figures" / f"{section['name']}.svg"
-            if section["svg"]:
-                write_atomically(file, section["svg"])
+        for name, svg in figures.items():
+            file = folder / "figures" / f"{name}.svg"
+            if svg:
+                write_atomically(file, svg)
             else:
                 file.unlink(missing_ok=True)  # of an earlier report
         write_atomically(page, html)
@@ -104,19 +115,3 @@ def _section(
         "caption": drawing.caption if drawing else "",
         "otherwise": otherwise,
     }
-
-
-def _rendered(results: Results, sections: list[dict[str, str]]) -> str:
-    """Fill the template; everything but our own figures, style and script is escaped."""
-    import jinja2
-
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("ssrics_like.report", "template"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    content = content_of(results)
-    return environment.get_template("page.html").render(sections=sections, **content)

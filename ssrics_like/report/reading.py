@@ -1,26 +1,21 @@
-"""Reads a results folder into records."""
+"""Reads a results folder for the report: the records, and what is only drawn."""
 
 from __future__ import annotations
 
-import csv
 import json
-from collections import defaultdict
-from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ssrics_like.comparison import building_of, score_records
 from ssrics_like.errors import ResultsError
 from ssrics_like.memory.store import load_topology
 from ssrics_like.report.pictures import Activation, Histogram, Novelty, Outline, Pictures
-from ssrics_like.report.records import Landmark, Reflex, Results, Run
-from ssrics_like.results.folder import read_manifest
-
-Row = dict[str, str]
-Item = TypeVar("Item")
+from ssrics_like.report.records import Results
+from ssrics_like.results.reading import read_records
+from ssrics_like.results.records import Run
 
 
 def read_results(folder: Path) -> Results:
@@ -36,30 +31,22 @@ def read_results(folder: Path) -> Results:
     ResultsError
         There is no folder, it holds no results or no complete run, or a file is missing or
         damaged (named with its line).
+    MapError
+        The map of the building is damaged.
     MemoryFileError
         The saved topological memory is damaged.
     """
-    manifest = read_manifest(folder)
-    try:
-        entries = {int(entry["run"]): entry for entry in manifest["runs"]}
-        started = {number: float(entry["start_s"]) for number, entry in entries.items()}
-    except (KeyError, TypeError, ValueError) as e:
-        raise ResultsError(f"{folder / 'manifest.json'}: is damaged: runs: {e!r}") from None
-    if not entries:
-        raise ResultsError(f"{folder}: holds no complete run; there is nothing to report")
-    paths = _by_run(folder / "path.csv", started, _pose)
-    reflexes = _by_run(folder / "decisions.csv", started, _reflex)
-    landmarks = _by_run(folder / "landmarks.csv", started, _landmark)
-    runs = tuple(
-        _run(entries[n], started[n], paths[n], reflexes[n], landmarks[n]) for n in sorted(entries)
-    )
-    shown = runs[0]
+    records = read_records(folder)
+    shown = records.runs[0]
+    building = building_of(folder)
     return Results(
         folder=folder,
-        manifest=manifest,
-        runs=runs,
+        manifest=records.manifest,
+        runs=records.runs,
         pictures=read_pictures(folder, shown),
         arcs=load_topology(folder / "topology" / f"{shown.name}.json").arcs,
+        building=building,
+        scores=score_records(records, building) if building else None,
     )
 
 
@@ -85,105 +72,6 @@ def read_pictures(folder: Path, run: Run) -> Pictures:
         raise ResultsError(f"{file}: cannot be read ({e.strerror})") from None
     except (KeyError, TypeError, ValueError) as e:
         raise ResultsError(f"{file}: is damaged: {e!r}") from None
-
-
-def _run(
-    entry: dict[str, Any],
-    start_s: float,
-    poses: list[tuple[float, ...]],
-    reflexes: list[Reflex],
-    landmarks: list[Landmark],
-) -> Run:
-    """Put a run together; draw it at the simulator's true positions where they are known."""
-    path = np.array(poses, np.float64).reshape(-1, 5)
-    is_true = len(path) > 0 and bool(np.isfinite(path[:, 3:]).all())
-    if is_true:
-        places = {r.landmark: (r.x_m, r.y_m) for r in reflexes if r.decision == "declared"}
-        landmarks = [
-            replace(mark, drawn_x_m=places[mark.name][0], drawn_y_m=places[mark.name][1])
-            if mark.name in places
-            else mark
-            for mark in landmarks
-        ]
-    return Run(
-        number=int(entry["run"]),
-        entry=entry,
-        start_s=start_s,
-        path=path[:, [0, 3, 4] if is_true else [0, 1, 2]],
-        is_true=is_true,
-        reflexes=tuple(reflexes),
-        landmarks=tuple(landmarks),
-    )
-
-
-def _by_run(
-    file: Path, started: dict[int, float], convert: Callable[[Row, float], Item]
-) -> defaultdict[int, list[Item]]:
-    """Read a table: by the number of the run, what `convert` makes of a row and the run's start.
-
-    Rows of a run that the manifest does not list are left out: a command that is interrupted
-    between tables and manifest leaves such rows.
-    """
-    found: defaultdict[int, list[Item]] = defaultdict(list)
-    for line, row in _rows(file):
-        try:
-            run = int(row["run"])
-            if run in started:
-                found[run].append(convert(row, started[run]))
-        except (KeyError, TypeError, ValueError) as e:
-            raise ResultsError(f"{file}:{line}: is damaged: {e!r}") from None
-    return found
-
-
-def _rows(file: Path) -> Iterator[tuple[int, Row]]:
-    try:
-        with file.open(encoding="utf-8", newline="") as lines:
-            reader = csv.DictReader(lines)
-            for row in reader:
-                yield reader.line_num, row
-    except OSError as e:
-        raise ResultsError(f"{file}: cannot be read ({e.strerror})") from None
-
-
-def _pose(row: Row, start_s: float) -> tuple[float, ...]:
-    places = (row[name] for name in ("x_m", "y_m", "true_x_m", "true_y_m"))
-    return (float(row["t_s"]) - start_s, *(float(v) if v else np.nan for v in places))
-
-
-def _reflex(row: Row, start_s: float) -> Reflex:
-    prefix = "true_" if row["true_x_m"] else ""
-    return Reflex(
-        event=int(row["event"]),
-        t_s=float(row["t_s"]) - start_s,
-        decided_s=float(row["decided_s"]) - start_s,
-        x_m=float(row[f"{prefix}x_m"]),
-        y_m=float(row[f"{prefix}y_m"]),
-        novelty=float(row["novelty"]),
-        sector=row["sector"],
-        structure=row["structure"],
-        decision=row["decision"],
-        landmark=row["landmark"],
-        rule=row["rule"],
-    )
-
-
-def _landmark(row: Row, start_s: float) -> Landmark:
-    x_m, y_m = float(row["x_m"]), float(row["y_m"])
-    return Landmark(
-        name=row["landmark"],
-        t_s=float(row["t_s"]) - start_s,
-        x_m=x_m,
-        y_m=y_m,
-        theta_rad=float(row["theta_rad"]),
-        drawn_x_m=x_m,
-        drawn_y_m=y_m,
-        sector=row["sector"],
-        structure=row["structure"],
-        salience=float(row["salience"]),
-        relevance=int(row["relevance"]),
-        permanence=float(row["permanence"]) if row["permanence"] else None,
-        visits=int(row["visits"]),
-    )
 
 
 def _outline(data: dict[str, Any]) -> Outline:

@@ -1,186 +1,40 @@
-"""What the report knows of a results folder: typed, sorted by run, time from zero."""
+"""What the report knows of a results folder."""
 
 from __future__ import annotations
 
-import math
-from collections import Counter
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ssrics_like.comparison import FolderScores
 from ssrics_like.memory.landmark import Arc
 from ssrics_like.report.pictures import Pictures
-
-DECISIONS = ("declared", "recognised", "unsure", "dismissed", "overwritten")
-"""Every decision, in the order in which figures and tables show them."""
-
-MARKS = ("declared", "recognised")
-"""The decisions that call a place a landmark."""
-
-
-@dataclass(frozen=True, slots=True)
-class Reflex:
-    """One row of decisions.csv: a reflex and what became of it.
-
-    Attributes
-    ----------
-    event : int
-        Its number.
-    t_s, decided_s : float
-        When it was perceived and decided, seconds since the start of the run.
-    x_m, y_m : float
-        Where it is drawn: the simulator's true position where there is one.
-    novelty : float
-        1 - boredom quotient.
-    sector, structure, decision, landmark, rule : str
-        As in the file; `landmark` and `rule` may be empty.
-    """
-
-    event: int
-    t_s: float
-    decided_s: float
-    x_m: float
-    y_m: float
-    novelty: float
-    sector: str
-    structure: str
-    decision: str
-    landmark: str
-    rule: str
-
-
-@dataclass(frozen=True, slots=True)
-class Landmark:
-    """One row of landmarks.csv.
-
-    Attributes
-    ----------
-    name : str
-        Its name.
-    t_s : float
-        When it was marked, seconds since the start of the run.
-    x_m, y_m, theta_rad : float
-        Pose of the robot then, as it believed.
-    drawn_x_m, drawn_y_m : float
-        Where it is drawn: the true position in simulation, else the same.
-    sector, structure : str
-        What was perceived there.
-    salience : float
-        Novelty at which it was declared.
-    relevance : int
-        Number of other landmarks it is joined to.
-    permanence : float or None
-        Base-level activation at the end; None where memory does not hold it.
-    visits : int
-        The marking included.
-    """
-
-    name: str
-    t_s: float
-    x_m: float
-    y_m: float
-    theta_rad: float
-    drawn_x_m: float
-    drawn_y_m: float
-    sector: str
-    structure: str
-    salience: float
-    relevance: int
-    permanence: float | None
-    visits: int
+from ssrics_like.results.records import Records, Run
+from ssrics_like.world.building import Building
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
-    """One run of a results folder.
-
-    Attributes
-    ----------
-    number : int
-        Its number.
-    entry : dict
-        Its entry in the manifest.
-    start_s : float
-        Time of its first observation on the source's own clock.
-    path : ndarray, shape (poses, 3)
-        Time since the start and drawn position: t_s, x_m, y_m.
-    is_true : bool
-        Whether drawn positions are the simulator's true ones.
-    reflexes : tuple of Reflex
-        In order of the file.
-    landmarks : tuple of Landmark
-        In order of their making.
-    """
-
-    number: int
-    entry: dict[str, Any]
-    start_s: float
-    path: NDArray[np.float64]
-    is_true: bool
-    reflexes: tuple[Reflex, ...]
-    landmarks: tuple[Landmark, ...]
-
-    @property
-    def name(self) -> str:
-        """Name of its files: ``run-000``."""
-        return f"run-{self.number:03d}"
-
-    @property
-    def duration_s(self) -> float:
-        """Seconds from the first observation to the last."""
-        return float(self.entry["duration_s"])
-
-    @property
-    def length_m(self) -> float:
-        """Metres driven."""
-        return float(self.entry["path_length_m"])
-
-    @property
-    def decided(self) -> Counter[str]:
-        """How often each decision was taken."""
-        return Counter(reflex.decision for reflex in self.reflexes)
-
-    @property
-    def marks_per_100_m(self) -> float:
-        """Declared and recognised reflexes per 100 m driven; NaN for a robot that stood still."""
-        marks = sum(self.decided[kind] for kind in MARKS)
-        return 100.0 * marks / self.length_m if self.length_m > 0 else math.nan
-
-
-@dataclass(frozen=True, eq=False)
-class Results:
+class Results(Records):
     """A results folder as read.
 
     Attributes
     ----------
-    folder : Path
-        Where it is.
-    manifest : dict
-        manifest.json.
-    runs : tuple of Run
-        All complete runs; at least one.
+    folder, manifest, runs
+        As of `Records`.
     pictures : Pictures
         Of the first run, which the report shows in detail.
     arcs : tuple of Arc
         Of the first run's topological memory.
+    building : Building or None
+        The building that was driven through; None for a log.
+    scores : FolderScores or None
+        How well its locations were found; None where there are none.
     """
 
-    folder: Path
-    manifest: dict[str, Any]
-    runs: tuple[Run, ...]
     pictures: Pictures
     arcs: tuple[Arc, ...]
+    building: Building | None = None
+    scores: FolderScores | None = None
 
     @property
     def shown(self) -> Run:
         """The run that is shown in detail."""
         return self.runs[0]
-
-    @property
-    def scenario(self) -> dict[str, Any]:
-        """The scenario as it was resolved."""
-        resolved: dict[str, Any] = self.manifest["scenario"]
-        return resolved

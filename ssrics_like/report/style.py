@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from ssrics_like.report.records import DECISIONS
+from ssrics_like.results.records import DECISIONS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +27,8 @@ MUTED = "#66727f"
 RULE = "#d8dee4"
 PALE = "#c3ccd5"
 WALL = "#aab4bf"
+PLAN_WALL = "#56616b"
+UNKNOWN = "#eceff2"
 PATH_FROM, PATH_TO = "#b9cbe0", "#33527a"
 ACCENT = VERMILION
 
@@ -93,11 +95,11 @@ def context() -> Iterator[None]:
         yield
 
 
-def new_figure(height_in: float) -> Figure:
-    """Return an empty figure of the page's width."""
+def new_figure(height_in: float, width_in: float = WIDTH_IN) -> Figure:
+    """Return an empty figure, of the page's width if none is given."""
     from matplotlib.figure import Figure
 
-    return Figure(figsize=(WIDTH_IN, height_in))
+    return Figure(figsize=(width_in, height_in))
 
 
 def place_axes(figure: Figure, left: float, right: float, bottom: float, top: float) -> Axes:
@@ -107,6 +109,14 @@ def place_axes(figure: Figure, left: float, right: float, bottom: float, top: fl
         (left / width, bottom / height, (width - left - right) / width,
          (height - bottom - top) / height)
     )  # fmt: skip
+
+
+def mixed(colour: str, share: float) -> str:
+    """Return a colour thinned with white."""
+    from matplotlib.colors import to_hex, to_rgb
+
+    red, green, blue = (1.0 - share * (1.0 - part) for part in to_rgb(colour))
+    return to_hex((red, green, blue))
 
 
 def sector_colour(sector: str) -> str:

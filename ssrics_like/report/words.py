@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 MINUTE_S = 60.0
@@ -54,6 +55,31 @@ def fraction_text(value: float, decimals: int = 4) -> str:
         text = text.rstrip("0").rstrip(".")
     sign = "−" if text.startswith("−") else ""
     return f"{sign}{text.removeprefix(sign).removeprefix('0') or '0'}"
+
+
+def percent_text(share: float, decimals: int = 0) -> str:
+    """Return a share as a percentage; a dash for one that cannot be said."""
+    return "–" if math.isnan(share) else f"{number_text(100 * share, decimals)} %"
+
+
+def figure_text(value: float, decimals: int = 2) -> str:
+    """Return a figure; a dash for one that cannot be said."""
+    return "–" if math.isnan(value) else number_text(value, decimals)
+
+
+def interval_text(interval: tuple[float, float]) -> str:
+    """Return an interval of a share in per cent: ``33–79 %``."""
+    low, high = interval
+    if math.isnan(low) or math.isnan(high):
+        return "–"
+    return f"{100 * low:.0f}–{100 * high:.0f} %"
+
+
+def place_text(name: str, label: str) -> str:
+    """Return what a labelled place is called: its label alone, where that holds the id."""
+    if name in label.split():
+        return label
+    return f"{name}  {label}".strip()
 
 
 def seen_text(sector: str, structure: str) -> str:

@@ -6,11 +6,12 @@ import csv
 import io
 import json
 import math
-import os
-import tempfile
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
+
+from ssrics_like.atomic import write_atomically
+
+__all__ = ["csv_line", "csv_text", "json_text", "number", "plain", "write_atomically"]
 
 DECIMALS = 6
 
@@ -38,28 +39,6 @@ def plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [plain(item) for item in value]
     return value
-
-
-def write_atomically(path: Path, data: bytes | str) -> None:
-    """Write a file to a temporary name beside it, then give it its own.
-
-    Raises
-    ------
-    OSError
-        The folder cannot be written.
-    """
-    raw = data.encode("utf-8") if isinstance(data, str) else data
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(raw)
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(name, 0o644)  # noqa: PTH101 - mkstemp makes files that only the owner can read
-        os.replace(name, path)  # noqa: PTH105
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 def json_text(data: Any, *, indent: int | None = 2) -> str:

@@ -23,7 +23,19 @@ from ssrics_like.results.files import csv_line, json_text, plain, write_atomical
 MANIFEST = "manifest.json"
 FORMAT = "ssrics-results"
 VERSION = 1
-OURS = (MANIFEST, "decisions.csv", "landmarks.csv", "path.csv", "topology", "trace", "figures")
+MADE_FROM_ALL = ("report.html", "locations.csv", "scores.json")
+"""Files that are worked out from all runs, after the tables."""
+OURS = (
+    MANIFEST,
+    "decisions.csv",
+    "landmarks.csv",
+    "path.csv",
+    "topology",
+    "trace",
+    "figures",
+    "map",
+    *MADE_FROM_ALL,
+)
 _RUN_FILE = re.compile(r"run-\d{3,}\.(json|graphml|jsonl)")
 
 
@@ -154,6 +166,11 @@ class ResultsFolder:
         write_atomically(partial / "run.json", json_text(entry))
         partial.rename(partial.with_suffix(""))
 
+    @property
+    def has_runs(self) -> bool:
+        """Whether a run of the scenario under way is complete."""
+        return bool(self._complete())
+
     def _entries(self) -> list[dict[str, Any]]:
         return [
             json.loads((folder / "run.json").read_text(encoding="utf-8"))
@@ -177,7 +194,8 @@ class ResultsFolder:
             for old in (self.path / name).iterdir():
                 if _RUN_FILE.fullmatch(old.name):
                     old.unlink()
-        (self.path / "report.html").unlink(missing_ok=True)  # drawn anew from all runs
+        for name in MADE_FROM_ALL:
+            (self.path / name).unlink(missing_ok=True)
         for folder in folders:
             for source, target in (
                 ("topology.json", f"topology/{folder.name}.json"),

@@ -11,12 +11,19 @@ from pydantic import BaseModel
 from ssrics_like import settings
 from ssrics_like.errors import SettingsError, choices, nearest
 from ssrics_like.library import SUFFIXES
+from ssrics_like.maps import load_building, load_plan
+from ssrics_like.maps.map_file import MapFile
+from ssrics_like.maps.plan_file import PlanFile
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.productions.rulebook import RuleFile, load_rulebook
 from ssrics_like.results.checking import check_results
-from ssrics_like.scenarios.schema import Scenario, load_scenario, resolve
+from ssrics_like.scenarios.feeds import open_source
+from ssrics_like.scenarios.resolving import load_resolved
+from ssrics_like.scenarios.schema import Scenario, read_scenario
+from ssrics_like.scenarios.variants import resolve_variants
 from ssrics_like.sources import open_log
+from ssrics_like.world.robot import RobotProfile
 
 
 def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -> str:
@@ -31,7 +38,7 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
 
     Raises
     ------
-    SettingsError, RuleError, LibraryError, SourceError, ResultsError
+    SettingsError, RuleError, LibraryError, MapError, SourceError, ResultsError
         What is wrong with it.
     """
     if path.is_dir():
@@ -51,6 +58,9 @@ def _kind(path: Path) -> str:
         "scenario": set(Scenario.model_fields) - {"title"},
         "perception profile": set(PerceptionProfile.model_fields) - {"title", "source"},
         "memory profile": set(MemoryProfile.model_fields) - {"title", "source"},
+        "map": set(MapFile.model_fields) - {"title", "locations"},
+        "plan": set(PlanFile.model_fields) - {"title", "locations"},
+        "robot": set(RobotProfile.model_fields) - {"title", "source"},
     }
     best = max(known, key=lambda kind: len(known[kind] & keys))
     if not known[best] & keys:
@@ -64,12 +74,32 @@ def _rules(path: Path) -> str:
 
 
 def _scenario(path: Path) -> str:
-    resolved = resolve(load_scenario(path), path.parent)
-    open_log(resolved.log, format=resolved.scenario.source.format)
-    return f"'{resolved.scenario.title}', {resolved.scenario.runs} run(s) of {resolved.log.name}"
+    scenario, document = read_scenario(path)
+    if scenario.factors or scenario.variants:
+        variants = resolve_variants(scenario, path.parent, where=document.where)
+        return f"'{scenario.title}', {len(variants)} variants of {scenario.runs} run(s)"
+    resolved = load_resolved(path)
+    if resolved.log:
+        open_source(resolved)
+    return f"'{scenario.title}', {scenario.runs} run(s) of {resolved.source_name}"
 
 
-def _profile(kind: type[PerceptionProfile | MemoryProfile]) -> Callable[[Path], str]:
+def _map(path: Path) -> str:
+    building = load_building(path)
+    width_m, height_m = building.grid.size_m
+    places = len(building.locations)
+    return f"'{building.title}', {width_m:g} x {height_m:g} m, {places} labelled place(s)"
+
+
+def _plan(path: Path) -> str:
+    plan = load_plan(path)
+    size = f"{plan.width_m:g} x {plan.height_m:g} m"
+    return f"'{plan.title}', {size}, {len(plan.locations)} labelled place(s)"
+
+
+def _profile(
+    kind: type[PerceptionProfile | MemoryProfile | RobotProfile],
+) -> Callable[[Path], str]:
     def check(path: Path) -> str:
         return f"'{settings.validated(kind, settings.read_document(path)).title}'"
 
@@ -99,7 +129,9 @@ def json_schema(kind: str) -> dict[str, Any]:
         "scenario": Scenario,
         "perception": PerceptionProfile,
         "memory": MemoryProfile,
+        "robot": RobotProfile,
         "productions": RuleFile,
+        "plan": PlanFile,
     }
     if kind not in models:
         raise SettingsError(
@@ -113,6 +145,9 @@ YAML_KINDS: dict[str, Callable[[Path], str]] = {
     "scenario": _scenario,
     "perception profile": _profile(PerceptionProfile),
     "memory profile": _profile(MemoryProfile),
+    "robot": _profile(RobotProfile),
+    "map": _map,
+    "plan": _plan,
 }
 KINDS = (*YAML_KINDS, "log", "results folder")
 PROGRESS_EVERY = 256  # scans

@@ -1,11 +1,12 @@
-"""Carries a scenario out: runs into a results folder."""
+"""Carries a scenario out: runs into results folders."""
 
 from __future__ import annotations
 
-import itertools
 import platform
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -14,16 +15,19 @@ from typing import Any
 import numpy as np
 
 import ssrics_like
-from ssrics_like.model import CognitiveModel
+from ssrics_like.comparison import write_scores
+from ssrics_like.maps import save_building
 from ssrics_like.results.folder import ResultsFolder
-from ssrics_like.results.recorder import JUMP_M, JUMP_M_S, Recorder
-from ssrics_like.scenarios.schema import Resolved
-from ssrics_like.sources import LogSource, open_log
+from ssrics_like.scenarios.feeds import DriveFeed, open_source
+from ssrics_like.scenarios.one_run import Part, Task
+from ssrics_like.scenarios.pool import carry_out_all
+from ssrics_like.scenarios.resolving import Resolved
 
 Progress = Callable[[int, float], None]
-"""Called now and then with the run's number and the share of it that is done."""
+"""Called now and then with a run's number and the share of it that is done."""
 
-PROGRESS_EVERY = 64  # scans
+JOINING_SHARE = 0.1
+"""Tables are put together anew after a run, but for no more than this share of the time."""
 
 
 def run_scenario(
@@ -31,6 +35,7 @@ def run_scenario(
     out: Path,
     *,
     resume: bool = False,
+    jobs: int = 1,
     progress: Progress = lambda _run, _share: None,
 ) -> dict[str, Any]:
     """Carry out every run of a scenario.
@@ -43,6 +48,8 @@ def run_scenario(
         Results folder, made if need be.
     resume : bool
         Keep the complete runs that are there and do only the others.
+    jobs : int
+        How many runs at the same time, each in a process of its own; the results are the same.
     progress : callable
         See `Progress`.
 
@@ -56,81 +63,150 @@ def run_scenario(
     SourceError, ResultsError, EngineError
         The log cannot be read, the folder cannot be written, the rules never come to rest.
     """
-    started = time.time()
-    settings = resolved.scenario.source
-    source = open_log(
-        resolved.log,
-        format=settings.format,
-        strict=settings.strict,
-        fallback_rate_hz=settings.fallback_rate_hz,
-        frame=settings.frame,
-    )
-    description = {
-        "scenario": resolved.as_data(),
-        "versions": versions(),
-        "seed": resolved.scenario.seed,
-        "frame": source.frame,
-        "input": {"file": source.path.name, "format": source.format, "sha256": source.sha256},
-    }
-    with ResultsFolder(out) as folder:
-        finished = folder.complete(description) if resume else None
-        if finished is not None:
-            return finished
-        done = folder.begin(description, resume=resume)
-        manifest: dict[str, Any] = {}
-        for run in range(resolved.scenario.runs):
-            if run not in done:
-                entry = _one_run(resolved, source, folder.open_run(run), run, progress)
-                folder.close_run(run, entry)
-            manifest = folder.combine({**description, "wall_clock": _wall_clock(started)})
-        folder.tidy()
+    (manifest,) = run_side_by_side([(resolved, out)], resume=resume, jobs=jobs, progress=progress)
     return manifest
 
 
-def _one_run(
-    resolved: Resolved, source: LogSource, folder: Path, run: int, progress: Progress
-) -> dict[str, Any]:
-    """Carry out one run into its own folder; return its entry for the manifest."""
-    seed = int(np.random.SeedSequence([resolved.scenario.seed, run]).generate_state(1)[0])
-    observations = iter(source)
-    first = next(observations)  # a source without any scan has raised already
-    with Recorder(folder, run, first.t_s, resolved.perception.range_cap_m) as recorder:
-        model = CognitiveModel(
-            resolved.perception,
-            resolved.productions,
-            resolved.memory,
-            seed=seed,
-            frame=source.frame,
-            trace=recorder.traced,
-            retrieved=recorder.retrieved,
-        )
-        for observation in itertools.chain([first], observations):
-            recorder.decided_all(model.observe(observation))
-            recorder.observed(observation, model.perception.novelty)
-            if observation.index % PROGRESS_EVERY == 0:
-                progress(run, source.progress)
-        recorder.decided_all(model.finish())
-        progress(run, 1.0)
-        entry = recorder.finish(model)
-    warnings = source.report.warnings()
-    if not entry["novelty"]["intervals"]:
-        warnings.append(
-            f"the log has {entry['scans']} scans, fewer than one interval of "
-            f"{resolved.perception.interval}: nothing can be novel"
-        )
-    if entry["jumps"]:
-        warnings.append(
-            f"the robot's pose jumped {entry['jumps']} times by more than {JUMP_M:g} m and faster "
-            f"than {JUMP_M_S:g} m/s; the path's length and the places of landmarks suffer from it"
-        )
-    if entry["undecided"]:
-        warnings.append(f"{entry['undecided']} reflexes were still undecided at the end of the run")
-    if entry["restarts"]:
-        warnings.append(
-            f"the laser changed {entry['restarts']} times (beams or angles); each time the "
-            "interval of the novelty algorithm began anew"
-        )
-    return {**entry, "seed": seed, "ended": "end of log", "warnings": warnings}
+def run_side_by_side(
+    scenarios: Sequence[tuple[Resolved, Path]],
+    *,
+    resume: bool = False,
+    jobs: int = 1,
+    progress: Progress = lambda _task, _share: None,
+) -> list[dict[str, Any]]:
+    """Carry out several scenarios; those with the same drives share them.
+
+    Parameters
+    ----------
+    scenarios : sequence of (Resolved, Path)
+        Each with its results folder.
+    resume, jobs : as `run_scenario`
+    progress : callable
+        Called with the number of a task: of a run, shared by the scenarios with the same drives.
+
+    Returns
+    -------
+    list of dict
+        The manifests.
+
+    Raises
+    ------
+    SourceError, ResultsError, EngineError
+        As `run_scenario`.
+    """
+    descriptions = [_description(resolved) for resolved, _ in scenarios]  # before folders are made
+    with ExitStack() as stack:
+        works = [
+            _Work(resolved, stack.enter_context(ResultsFolder(out)), description)
+            for (resolved, out), description in zip(scenarios, descriptions, strict=True)
+        ]
+        for work in works:
+            work.begin(resume=resume)
+        shared: dict[tuple[str, int], list[_Work]] = {}
+        for work in works:
+            for run in work.missing:
+                shared.setdefault((drive_key(work.resolved), run), []).append(work)
+        tasks, owners = [], []
+        for (_, run), members in sorted(shared.items(), key=lambda item: item[0][1]):
+            parts = tuple(Part(w.resolved, w.folder.open_run(run)) for w in members)
+            tasks.append(Task(run, parts))
+            owners.append(members)
+        of_task = dict(zip(map(id, tasks), owners, strict=True))
+
+        def done(task: Task, entries: list[dict[str, Any]]) -> None:
+            for work, entry in zip(of_task[id(task)], entries, strict=True):
+                work.folder.close_run(task.run, entry)
+                work.join(only_if_cheap=True)
+
+        try:
+            # A scenario of its own counts runs, several count what they have in common.
+            names = [task.run if len(works) == 1 else i for i, task in enumerate(tasks)]
+            carry_out_all(tasks, jobs, lambda i, share: progress(names[i], share), done)
+        except BaseException:
+            for work in works:
+                if work.folder.has_runs:
+                    work.join()
+            raise
+        return [work.finish() for work in works]
+
+
+@dataclass
+class _Work:
+    """A scenario on its way into a results folder."""
+
+    resolved: Resolved
+    folder: ResultsFolder
+    description: dict[str, Any]
+    missing: list[int] = field(default_factory=list)
+    manifest: dict[str, Any] | None = None
+    started: float = field(default_factory=time.time)
+    joining_s: float = 0.0
+    is_whole: bool = False
+
+    def begin(self, *, resume: bool) -> None:
+        """Find out which runs are to be done."""
+        finished = self.folder.complete(self.description) if resume else None
+        if finished is not None:
+            self.manifest, self.is_whole = finished, True
+            return
+        there = self.folder.begin(self.description, resume=resume)
+        self.missing = [n for n in range(self.resolved.scenario.runs) if n not in there]
+
+    def join(self, *, only_if_cheap: bool = False) -> None:
+        """Put the complete runs together, so that an interrupted command leaves them readable."""
+        begun = time.time()
+        spent = begun - self.started
+        if self.is_whole or (only_if_cheap and self.joining_s > JOINING_SHARE * spent):
+            return
+        clock = {"wall_clock": _wall_clock(self.started)}
+        self.manifest = self.folder.combine({**self.description, **clock})
+        self._write_map()
+        self.joining_s += time.time() - begun
+
+    def _write_map(self) -> None:
+        """Put the building beside the tables, or take away that of an earlier scenario."""
+        folder = self.folder.path / "map"
+        if self.resolved.place is not None:
+            save_building(self.resolved.place.building, folder)
+            return
+        for name in ("map.yaml", "map.png"):
+            (folder / name).unlink(missing_ok=True)
+        if folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
+
+    def finish(self) -> dict[str, Any]:
+        """Put everything together; return the manifest."""
+        if not self.is_whole:
+            self.join()
+            write_scores(self.folder.path)
+            self.folder.tidy()
+        assert self.manifest is not None
+        return self.manifest
+
+
+def drive_key(resolved: Resolved) -> str:
+    """Return a text that is equal for scenarios whose observations are equal."""
+    if resolved.place is not None:
+        return f"{resolved.place.as_data()} {resolved.place.sha256} {resolved.scenario.seed}"
+    return f"{resolved.log} {resolved.scenario.source}"
+
+
+def _description(resolved: Resolved) -> dict[str, Any]:
+    """Return all that decides the results."""
+    if resolved.place is not None:
+        frame = DriveFeed.frame
+        source = {"file": resolved.place.name, "format": "map", "sha256": resolved.place.sha256}
+    else:
+        log = open_source(resolved)
+        frame = log.frame
+        source = {"file": log.path.name, "format": log.format, "sha256": log.sha256}
+    return {
+        "scenario": resolved.as_data(),
+        "versions": versions(),
+        "seed": resolved.scenario.seed,
+        "frame": frame,
+        "input": source,
+    }
 
 
 def versions() -> dict[str, str]:
@@ -140,6 +216,7 @@ def versions() -> dict[str, str]:
         "pyactr": version("pyactr"),
         "numpy": np.__version__,
         "numba": version("numba"),
+        "scipy": version("scipy"),
         "python": platform.python_version(),
     }
 

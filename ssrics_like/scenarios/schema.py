@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import re
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError, field_validator, model_validator
 
 from ssrics_like import library, settings
-from ssrics_like.errors import LibraryError, SettingsError, choices, nearest
-from ssrics_like.memory.profile import MemoryProfile
-from ssrics_like.perception.profile import PerceptionProfile
-from ssrics_like.productions.rulebook import load_rulebook
-from ssrics_like.productions.rules import EngineParameters, Rulebook
+from ssrics_like.errors import LibraryError, SettingsError
+from ssrics_like.scenarios.world_settings import Strict, WorldSettings
+
+MODULES = ("perception", "productions", "memory")
+"""The modules of the mind: keys of a scenario, each with a library folder of its own."""
+
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
-
-
-class LogSettings(_Strict):
+class LogSettings(Strict):
     """A robot's log as the source of observations.
 
     Attributes
@@ -44,73 +42,104 @@ class LogSettings(_Strict):
     frame: Literal["map", "odometry", "corrected"] | None = None
 
 
-class Scenario(_Strict):
+class Published(Strict):
+    """Figures of a publication to set beside ours.
+
+    Attributes
+    ----------
+    source : str
+        Where they stand.
+    found : dict
+        Id of a location -> share of runs in which it was found.
+    """
+
+    source: str
+    found: dict[str, Annotated[float, Field(ge=0.0, le=1.0)]]
+
+
+class VariantSettings(Strict):
+    """The scenario with some values changed.
+
+    Attributes
+    ----------
+    name : str
+        Names its folder: letters, digits, dots, dashes.
+    title : str
+        What it is.
+    set : dict
+        Values, as after ``--set``: ``perception: report``, ``perception.mark: peak``.
+    """
+
+    name: str
+    title: str = ""
+    set: dict[str, Any] = Field(default_factory=dict)
+
+    @field_validator("name")
+    @classmethod
+    def _names_a_folder(cls, name: str) -> str:
+        if not _NAME.fullmatch(name):
+            raise ValueError(f"{name!r}: expected letters, digits, dots and dashes")
+        return name
+
+
+class Scenario(Strict):
     """An experiment: a source, the three modules of the mind, how often.
 
     Attributes
     ----------
-    title : str
+    title, description : str
         Shown in the report.
     source : LogSettings
-        Where the observations come from.
+        A log that the observations come from; or `world`.
+    world : WorldSettings
+        A simulated building that they come from.
     perception, productions, memory : str
         Library entries, or paths relative to the scenario file.
     runs : int
         Number of runs; they differ in their noise.
     seed : int
         Run k uses the k-th seed spawned from it.
+    humans : str
+        CSV of people's choices of landmarks, relative to the scenario file.
+    match_radius_m : float
+        A mark within this of a location has found it.
+    published : Published
+        Figures to set beside ours.
+    factors : dict
+        Name of a factor -> name of a level -> values to set: every combination is a variant.
+    variants : list of VariantSettings
+        Further variants.
     set : dict
         Single values of the modules to override, as after ``--set``: ``memory.decay: 0.3``.
     """
 
     title: str = ""
-    source: LogSettings
+    description: str = ""
+    source: LogSettings | None = None
+    world: WorldSettings | None = None
     perception: str = "human-like"
     productions: str = "landmark"
     memory: str = "act-r"
-    runs: Annotated[int, Field(ge=1)] = 1
+    runs: Annotated[int, Field(ge=1, le=100_000)] = 1
     seed: Annotated[int, Field(ge=0)] = 2006
-    set: dict[str, Any] = {}
+    humans: str | None = None
+    match_radius_m: Annotated[float, Field(gt=0.0, le=100.0)] = 1.0
+    published: Published | None = None
+    factors: dict[str, Annotated[dict[str, dict[str, Any]], Field(min_length=1)]] = Field(
+        default_factory=dict
+    )
+    variants: list[VariantSettings] = Field(default_factory=list)
+    set: dict[str, Any] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        if (self.source is None) == (self.world is None):
+            raise ValueError("a scenario has either source (a log) or world (a building)")
+        return self
 
 
-@dataclass(frozen=True)
-class Resolved:
-    """A scenario with its files read and overrides applied: all that a run needs."""
-
-    scenario: Scenario
-    log: Path
-    perception: PerceptionProfile
-    productions: Rulebook
-    memory: MemoryProfile
-
-    def as_data(self) -> dict[str, Any]:
-        """Return everything that decides the results, as plain values for the manifest."""
-        book = self.productions
-        return {
-            "title": self.scenario.title,
-            "source": {**self.scenario.source.model_dump(), "log": self.log.name},
-            "perception": {"name": self.scenario.perception, **self.perception.model_dump()},
-            "productions": {
-                "name": self.scenario.productions,
-                "title": book.title,
-                "parameters": book.parameters.model_dump(),
-                "chunk_types": {name: list(slots) for name, slots in book.chunk_types.items()},
-                "goal": book.goal,
-                "harvest": list(book.harvest),
-                "rules": {
-                    rule.name: {"why": rule.why, "utility": rule.utility, "rule": rule.source}
-                    for rule in book.rules
-                },
-            },
-            "memory": {"name": self.scenario.memory, **self.memory.model_dump()},
-            "set": self.scenario.set,
-            "runs": self.scenario.runs,
-            "seed": self.scenario.seed,
-        }
-
-
-def load_scenario(path: Path) -> Scenario:
-    """Read and check a scenario file.
+def read_scenario(path: Path) -> tuple[Scenario, settings.Document]:
+    """Read and check a scenario file; return it with the places of its keys.
 
     Raises
     ------
@@ -120,17 +149,28 @@ def load_scenario(path: Path) -> Scenario:
     document = settings.read_document(path)
     scenario = settings.validated(Scenario, document)
     problems = []
-    for module in MODULES:
+    entries: dict[tuple[str, ...], tuple[str, str]] = {
+        (module,): (module, getattr(scenario, module)) for module in MODULES
+    }
+    files: dict[tuple[str, ...], str | None] = {("humans",): scenario.humans}
+    if scenario.source is not None:
+        files["source", "log"] = scenario.source.log
+    if scenario.world is not None:
+        entries["world", "robot"] = ("robots", scenario.world.robot)
+        files["world", "map"] = scenario.world.map
+        files["world", "locations"] = scenario.world.locations
+    for key, (kind, name) in entries.items():
         try:
-            library.find(module, _at(path.parent, getattr(scenario, module)))
+            library.find(kind, at(path.parent, name))
         except LibraryError as e:
-            problems.append(f"{document.where((module,))}: {module}: {e}")
-    if not (path.parent / scenario.source.log).is_file():
-        where = document.where(("source", "log"))
-        problems.append(f"{where}: source.log: {path.parent / scenario.source.log}: no such file")
+            problems.append(f"{document.where(key)}: {'.'.join(key)}: {e}")
+    for key, file in files.items():
+        if file is not None and not (path.parent / file).is_file():
+            said = "is a folder" if (path.parent / file).is_dir() else "no such file"
+            problems.append(f"{document.where(key)}: {'.'.join(key)}: {path.parent / file}: {said}")
     if problems:
         raise SettingsError("\n".join(problems))
-    return scenario
+    return scenario, document
 
 
 def make_scenario(data: dict[str, Any]) -> Scenario:
@@ -148,101 +188,7 @@ def make_scenario(data: dict[str, Any]) -> Scenario:
         raise SettingsError("\n".join(lines)) from None
 
 
-def load_perception(name: str | Path) -> PerceptionProfile:
-    """Read a perception profile: a library entry, or a path.
-
-    Raises
-    ------
-    LibraryError, SettingsError
-        There is none of this name; it is wrong.
-    """
-    document = settings.read_document(library.find("perception", name))
-    return settings.validated(PerceptionProfile, document)
-
-
-def load_memory(name: str | Path) -> MemoryProfile:
-    """Read a memory profile: a library entry, or a path.
-
-    Raises
-    ------
-    LibraryError, SettingsError
-        There is none of this name; it is wrong.
-    """
-    return settings.validated(MemoryProfile, settings.read_document(library.find("memory", name)))
-
-
-def load_productions(name: str | Path) -> Rulebook:
-    """Read a rule set: a library entry, or a path.
-
-    Raises
-    ------
-    LibraryError, RuleError
-        There is none of this name; it is wrong.
-    """
-    return load_rulebook(library.find("productions", name))
-
-
-MODULES = ("perception", "productions", "memory")
-
-
-class _Engine(_Strict):
-    """The part of a rule set that ``--set productions.parameters...`` reaches."""
-
-    parameters: EngineParameters
-
-
-def resolve(scenario: Scenario, base: Path, overrides: list[str] | None = None) -> Resolved:
-    """Read the files that a scenario names and apply ``--set`` overrides.
-
-    Parameters
-    ----------
-    scenario : Scenario
-        As read, or made from command-line arguments.
-    base : Path
-        Folder that relative paths start from.
-    overrides : list of str
-        ``key=value`` each: ``memory.decay=0.3``, ``runs=3``, ``source.strict=true``.
-
-    Raises
-    ------
-    LibraryError, SettingsError, RuleError
-        A name is unknown, or a file or override is wrong.
-    """
-    changes: dict[str, dict[str, Any]] = {module: {} for module in MODULES}
-    own: dict[str, Any] = {}
-    typed = dict(settings.parse_override(text) for text in overrides or [])
-    for key, value in {**scenario.set, **typed}.items():
-        head, dot, rest = key.partition(".")
-        if head in changes and dot:
-            changes[head][rest] = value
-        elif key in typed and head in Scenario.model_fields:
-            own[key] = value
-        else:
-            fields = Scenario.model_fields if key in typed else ()
-            known = [*fields, *(f"{module}." for module in MODULES)]
-            raise SettingsError(
-                f"--set {key}: unknown key '{head}'{nearest(head, (*fields, *MODULES))}; "
-                f"known: {choices(known)}"
-            )
-    scenario = settings.override(scenario, own, "")
-    # A path that was typed starts where it was typed; one in a scenario file, at that file.
-    start = {key: Path() if key in own else base for key in (*MODULES, "source.log")}
-    perception = load_perception(_at(start["perception"], scenario.perception))
-    book = load_productions(_at(start["productions"], scenario.productions))
-    memory = load_memory(_at(start["memory"], scenario.memory))
-    engine = settings.override(
-        _Engine(parameters=book.parameters), changes["productions"], "productions."
-    )
-    return Resolved(
-        scenario=scenario,
-        log=start["source.log"] / scenario.source.log,
-        perception=settings.override(perception, changes["perception"], "perception."),
-        productions=replace(book, parameters=engine.parameters),
-        memory=settings.override(memory, changes["memory"], "memory."),
-    )
-
-
-def _at(base: Path, name: str) -> str:
+def at(base: Path, name: str) -> str:
     """Make a path relative to the scenario file; leave a library name as it is."""
     if "/" in name or name.endswith(library.SUFFIXES):
         return str(base / name)

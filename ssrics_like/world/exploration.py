@@ -17,6 +17,7 @@ import numpy as np
 from ssrics_like.world import frontier_kernels, way_kernels
 from ssrics_like.world.motion_kernels import ARRIVED
 from ssrics_like.world.navigation import Errand
+from ssrics_like.world.occupancy import SQUEEZE, TIGHT
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -91,8 +92,10 @@ class Exploration:
                 grid.evidence, self._tried, tries, least, peek, self._goals
             ):
                 continue
+            # At first it looks from where it can turn at ease.
+            dearest = TIGHT if tries == 1 else SQUEEZE
             goal = way_kernels.spread(
-                costs, self._goals, navigator.cell(), self._distance, self._parent
+                costs, self._goals, navigator.cell(), dearest, self._distance, self._parent
             )
             if goal < 0:
                 continue

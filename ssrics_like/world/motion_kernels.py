@@ -20,6 +20,7 @@ SLOW_RAD_S = 0.3  # turning no faster than this, the robot has faced what it was
 PIVOT_RAD = 0.9  # farther off than this, the robot turns on the spot first
 BRAKING = 0.7  # share of the deceleration that is counted on
 CREEP_M_S = 0.05
+BACKING_M_S = 0.2
 SLOW_M_S = 0.3
 SLOW_GAIN = 1.5  # per second: gentle enough for the turn to stop in time
 
@@ -100,10 +101,14 @@ def _room(
     y: float,
 ) -> float:
     """Return the distance from a place to the nearest solid cell or disc, metres."""
-    row, column = math.floor(y / cell_m), math.floor(x / cell_m)
-    if row < 0 or row >= clearance.shape[0] or column < 0 or column >= clearance.shape[1]:
+    # Between the centres of four cells; beyond the outermost centres there are only walls.
+    column, row = math.floor(x / cell_m - 0.5), math.floor(y / cell_m - 0.5)
+    if row < 0 or row + 1 >= clearance.shape[0] or column < 0 or column + 1 >= clearance.shape[1]:
         return -1.0
-    room = float(clearance[row, column])
+    right, up = x / cell_m - 0.5 - column, y / cell_m - 0.5 - row
+    room = (1.0 - up) * (
+        (1.0 - right) * clearance[row, column] + right * clearance[row, column + 1]
+    ) + up * ((1.0 - right) * clearance[row + 1, column] + right * clearance[row + 1, column + 1])
     for i in range(discs.shape[0]):
         room = min(room, math.hypot(discs[i, 0] - x, discs[i, 1] - y) - discs[i, 2])
     return room
@@ -117,6 +122,7 @@ def drive(
     at: int,
     face_rad: float,
     free_m: float,
+    backing: bool,
     seconds: float,
     ticks: int,
     limits: tuple[float, float, float, float],
@@ -125,7 +131,7 @@ def drive(
     clearance: NDArray[np.float32],
     cell_m: float,
     discs: NDArray[np.float64],
-) -> tuple[int, int]:
+) -> tuple[int, int, int]:
     """Drive along a path for a while.
 
     Parameters
@@ -142,6 +148,8 @@ def drive(
         Heading to take up at its end; NaN for none.
     free_m : float
         How far the way ahead is free, by the last scan.
+    backing : bool
+        Back off straight instead.
     seconds, ticks
         For how long, and in how many steps.
     limits : tuple of float
@@ -159,14 +167,20 @@ def drive(
         New progress.
     status : int
         ON_THE_WAY or ARRIVED.
+    bumps : int
+        Steps in which the body ran against something.
     """
+    bumps = 0
     dt = seconds / ticks
     status = ON_THE_WAY
     measured[:] = 0.0
     slip = factors[2]
     room = _room(clearance, cell_m, discs, state[0], state[1])
     for _ in range(ticks):
-        at, wanted_v, wanted_w, status = _steer(state, path, at, face_rad, free_m, limits)
+        if backing:
+            wanted_v, wanted_w = -BACKING_M_S, 0.0
+        else:
+            at, wanted_v, wanted_w, status = _steer(state, path, at, face_rad, free_m, limits)
         dv, dw = limits[2] * dt, limits[3] * dt
         state[3] += min(max(wanted_v - state[3], -2.0 * dv), dv)  # brakes are stronger
         state[4] += min(max(wanted_w - state[4], -dw), dw)
@@ -186,8 +200,9 @@ def drive(
             # Against something: the bumper stops the wheels.
             measured[0] -= way
             state[3] = 0.0
+            bumps += 1
         free_m -= way
-    return at, status
+    return at, status, bumps
 
 
 @compiled

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 MAPPING_S = 0.2  # a scan is mapped this often at most; faster ones add little
 STUCK_S = 6.0  # so long without getting anywhere is too long; a turn on the spot takes less
 MOVED_M = 0.05
+BACKING_S = 1.0
 SIDE_M = 0.02  # berth beside the body that must be free to drive on
 NOWHERE = np.empty((0, 2))
 
@@ -101,6 +102,8 @@ class Navigator:
         What it is doing.
     free_m : float
         How far it can drive straight on.
+    backing_until_s : float
+        When it has backed off far enough from what it ran against.
     finished : bool
         Whether all legs are done.
     """
@@ -116,6 +119,7 @@ class Navigator:
         self.errand = Errand()
         self.free_m = 0.0
         self.finished = not self.legs
+        self.backing_until_s = -math.inf
         self._directions = robot.laser.directions
         self._laser_x_m = robot.laser.x_m
         self._leg = -1
@@ -164,9 +168,22 @@ class Navigator:
                 self.legs[self._leg].begin(self, t_s)
                 errand = self.legs[self._leg].next(self, t_s, stuck=False)
         errand = errand or Errand(status=ARRIVED)
-        if errand is not self.errand:
-            self.errand = errand
-            self._moved_s, self._moved_from = t_s, pose
+        self.errand = errand
+
+    def bump(self, t_s: float, contact: tuple[float, float] | None) -> None:
+        """Note what the bumper touched, which no scan has shown, and back off.
+
+        Parameters
+        ----------
+        t_s : float
+            Seconds since the start.
+        contact : tuple of float or None
+            x, y of a part of the building, grid frame; None for somebody who will walk on.
+        """
+        self.backing_until_s = t_s + BACKING_S
+        for grid in (self.explored, self.planned):
+            if grid is not None and contact is not None:
+                grid.meet(*contact)
 
     def forget_place(self) -> None:
         """Note that the robot was carried elsewhere: whatever it was driving to is off."""
@@ -177,4 +194,7 @@ class Navigator:
         before, now = self._moved_from, self.pose
         if before is None or math.hypot(now.x_m - before.x_m, now.y_m - before.y_m) > MOVED_M:
             self._moved_s, self._moved_from = t_s, now
-        return t_s - self._moved_s > STUCK_S
+        stuck = t_s - self._moved_s > STUCK_S
+        if stuck or self.errand.status == ARRIVED:
+            self._moved_s = t_s  # it was told, or stands because it should
+        return stuck

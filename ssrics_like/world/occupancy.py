@@ -61,6 +61,15 @@ class OccupancyGrid:
         )  # fmt: skip
         return new
 
+    def meet(self, x_m: float, y_m: float) -> None:
+        """Note that something is at a place, grid frame, which must have been seen before."""
+        row, column = int(y_m / self.cell_m), int(x_m / self.cell_m)
+        rows, columns = self.evidence.shape
+        if 0 <= row < rows and 0 <= column < columns and self.evidence[row, column]:
+            occupancy_kernels.add_evidence(
+                self.evidence, self._counts, self._discs, row, column, 2 * occupancy_kernels.MOST
+            )
+
     def know(self, solid: NDArray[np.bool_]) -> None:
         """Take a floor plan for granted until scans say otherwise."""
         most = occupancy_kernels.MOST

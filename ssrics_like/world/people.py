@@ -69,7 +69,7 @@ class People:
         self._parent = np.empty(clearance.shape, np.int32)
         nowhere = np.full(clearance.shape, -1, np.int32)
         start = int(robot.y_m / cell_m), int(robot.x_m / cell_m)
-        way_kernels.spread(self._costs, nowhere, start, self._distance, self._parent)
+        way_kernels.spread(self._costs, nowhere, start, TIGHT, self._distance, self._parent)
         there = (self._distance < way_kernels.FAR) & (self._costs != BLOCKED)
         self._places = np.argwhere(there)
         self._ways = [np.empty((0, 2))] * len(self.discs)
@@ -114,7 +114,7 @@ class People:
         goals = np.full(self._costs.shape, -1, np.int32)
         goals[int(y / self._cell_m), int(x / self._cell_m)] = 0
         start = int(disc[1] / self._cell_m), int(disc[0] / self._cell_m)
-        goal = way_kernels.spread(self._costs, goals, start, self._distance, self._parent)
+        goal = way_kernels.spread(self._costs, goals, start, TIGHT, self._distance, self._parent)
         if goal < 0:
             return np.empty((0, 2))
         way: NDArray[np.float64] = way_kernels.way_to(self._parent, goal, self._cell_m)

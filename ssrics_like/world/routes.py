@@ -10,7 +10,7 @@ import numpy as np
 from ssrics_like.world import way_kernels
 from ssrics_like.world.motion_kernels import ARRIVED
 from ssrics_like.world.navigation import Errand
-from ssrics_like.world.occupancy import OccupancyGrid
+from ssrics_like.world.occupancy import SQUEEZE, OccupancyGrid
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -153,7 +153,7 @@ def _way(navigator: Navigator, waypoint: tuple[float, ...]) -> NDArray[np.float6
         return None
     goals[row, column] = 0
     distance, parent = np.empty(costs.shape, np.int32), np.empty(costs.shape, np.int32)
-    goal = way_kernels.spread(costs, goals, navigator.cell(), distance, parent)
+    goal = way_kernels.spread(costs, goals, navigator.cell(), SQUEEZE, distance, parent)
     if goal < 0:
         return None
     way: NDArray[np.float64] = way_kernels.straightened(

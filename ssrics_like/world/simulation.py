@@ -60,6 +60,10 @@ class Simulation:
     coverage : float
         Share of the reachable free space that has been seen so far: of the cells that the robot's
         body could cover, from where it started, with the doors as they are at the start.
+    t_s : float
+        Time of the latest observation.
+    way_m : float
+        Length of the robot's true path, without what it was carried.
     bumps : int
         Scans at which the robot had run against something since the one before.
     """
@@ -80,7 +84,8 @@ class Simulation:
         self.ended = ""
         self.bumps = 0
         self.t_s = 0.0
-        self._limit_s = time_limit_s
+        self.way_m = 0.0
+        self.time_limit_s = time_limit_s
         self._happenings = disturbances or Disturbances()
         self._rngs = {
             name: np.random.default_rng(child)
@@ -88,6 +93,8 @@ class Simulation:
         }
         self._state = np.array([start.x_m, start.y_m, start.theta_rad, 0.0, 0.0])
         self._measured = np.zeros(2)
+        # Edges are known to half a cell only; where the plan just lets it pass, the body does.
+        self._body_m = max(robot.radius_m - 0.5 * grid.cell_m, 0.5 * robot.radius_m)
         self._laser = Laser(robot.laser, self._rngs["laser"])
         self._odometry = Odometry(robot.odometry, grid.pose_in_map(start), self._rngs["odometry"])
         self._slip = Slip(self._happenings.slip, self._rngs["slip"])
@@ -140,8 +147,8 @@ class Simulation:
             if self.navigator.finished:
                 self.ended = "all legs done"
                 return
-            if self.t_s + period_s > self._limit_s:
-                self.ended = f"time limit of {self._limit_s:g} s"
+            if self.t_s + period_s > self.time_limit_s:
+                self.ended = f"time limit of {self.time_limit_s:g} s"
                 return
             self._move(period_s)
             index += 1
@@ -151,21 +158,40 @@ class Simulation:
         robot, errand = self.robot, self.navigator.errand
         miss_v, miss_w = (1.0 + robot.actuation * self._rngs["wheels"].standard_normal(2)).tolist()
         before = self._state[:2].copy()
-        errand.at, errand.status = motion_kernels.drive(
+        errand.at, errand.status, bumps = motion_kernels.drive(
             self._state, self._measured, errand.way, errand.at, errand.face_rad,
-            self.navigator.free_m, seconds, math.ceil(seconds / TICK_S - 1e-9),
+            self.navigator.free_m, self.t_s < self.navigator.backing_until_s,
+            seconds, math.ceil(seconds / TICK_S - 1e-9),
             (robot.speed_m_s, robot.turn_rad_s, robot.acceleration_m_s2,
              robot.turn_acceleration_rad_s2),
-            (miss_v, miss_w, self._lost_share), robot.radius_m, self._clearance,
+            (miss_v, miss_w, self._lost_share), self._body_m, self._clearance,
             self.grid.cell_m, self._people.discs,
         )  # fmt: skip
         way_m, turn_rad = self._measured.tolist()
-        if way_m:
-            self.bumps += not np.any(self._state[:2] != before)
+        self.way_m += math.hypot(*(self._state[:2] - before).tolist())
+        if bumps:
+            self.bumps += 1
+            if self.t_s >= self.navigator.backing_until_s:
+                self.navigator.bump(self.t_s, self._contact())
         self._odometry.advance(way_m, turn_rad)
         self._lost_share = self._slip.advance(way_m)
         if len(self._people.discs):
             self._people.walk(seconds, self.pose, robot.radius_m)
+
+    def _contact(self) -> tuple[float, float] | None:
+        """Return the middle of the nearest solid cell, if the body touches it."""
+        cell_m, reach = self.grid.cell_m, math.ceil(self.robot.radius_m / self.grid.cell_m) + 2
+        row, column = self.grid.cell_of(*self._state[:2].tolist())
+        top, left = max(row - reach, 0), max(column - reach, 0)
+        found = np.argwhere(self._solid[top : row + reach + 1, left : column + reach + 1])
+        if not len(found):
+            return None
+        places = (found[:, ::-1] + [left, top] + 0.5) * cell_m
+        far = np.hypot(*(places - self._state[:2]).T)
+        nearest = int(np.argmin(far))
+        if far[nearest] > self.robot.radius_m + 2 * cell_m:
+            return None
+        return float(places[nearest, 0]), float(places[nearest, 1])
 
     def _happen(self) -> None:
         """Let doors close and open, and the robot be carried off, if it is time."""

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 STRAIGHT, DIAGONAL = 5, 7  # a cell's side and diagonal, times the cost of the cell entered
 BLOCKED, OUT_OF_BLOCKED = 255, 20  # a cell that touches something; what it costs to get out
+ESCAPE = 6  # cells around the start in which that is allowed
 BUCKETS = 256  # more than the dearest step, DIAGONAL * OUT_OF_BLOCKED
 FAR = np.iinfo(np.int32).max
 OPEN = 1
@@ -47,6 +48,7 @@ def spread(
     costs: NDArray[np.uint8],
     goals: NDArray[np.int32],
     start: tuple[int, int],
+    dearest: int,
     distance: NDArray[np.int32],
     parent: NDArray[np.int32],
 ) -> int:
@@ -60,6 +62,8 @@ def spread(
         0 or more where the way may end.
     start : tuple of int
         Row and column.
+    dearest : int
+        A goal whose cell costs more than this is none, but for the start itself.
     distance, parent : ndarray, shape (rows, columns), int32
         Filled with the cost of each cell reached (FAR for the others) and the flat index of the
         cell before it.
@@ -90,15 +94,20 @@ def spread(
             continue
         _take_out(level % BUCKETS, cell, heads, links)
         waiting -= 1
-        in_blocked = cost_of[cell] == BLOCKED or cell == origin
-        if goal_of[cell] >= 0 and (cost_of[cell] != BLOCKED or cell == origin):
-            return int(cell)
         row, column = cell // columns, cell % columns
+        # Out of where it touches something the robot may go, but only a step or two.
+        escaping = (
+            cost_of[cell] == BLOCKED
+            and abs(row - start[0]) < ESCAPE
+            and abs(column - start[1]) < ESCAPE
+        )
+        if goal_of[cell] >= 0 and (cost_of[cell] <= dearest or cell == origin):
+            return int(cell)
         for r in range(max(row - 1, 0), min(row + 2, rows)):
             for c in range(max(column - 1, 0), min(column + 2, columns)):
                 other = r * columns + c
                 cost = cost_of[other]
-                if cost == 0 or (cost == BLOCKED and not in_blocked):
+                if cost == 0 or (cost == BLOCKED and not escaping):
                     continue
                 if cost == BLOCKED:
                     cost = OUT_OF_BLOCKED
@@ -174,8 +183,14 @@ def straightened(
 
 @compiled
 def is_open(blocked: NDArray[np.int16], way: NDArray[np.float64], at: int, cell_m: float) -> bool:
-    """Tell whether no place of a way, from its `at`-th on, touches something known."""
+    """Tell whether no place of a way, from its `at`-th on, touches something known.
+
+    A way may lead out of where the robot touches something already.
+    """
+    outside = False
     for i in range(at, way.shape[0]):
-        if blocked[math.floor(way[i, 1] / cell_m), math.floor(way[i, 0] / cell_m)] > 0:
+        free = blocked[math.floor(way[i, 1] / cell_m), math.floor(way[i, 0] / cell_m)] == 0
+        if outside and not free:
             return False
+        outside = outside or free
     return True

@@ -1,0 +1,213 @@
+"""A scenario in several variants: what was varied, and how each of them scored."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ssrics_like.comparison.writing import SCORES
+from ssrics_like.errors import ResultsError
+from ssrics_like.results.folder import MANIFEST, read_manifest
+
+VARIANTS = "variants.json"
+FORMAT, VERSION = "ssrics-variants", 1
+FIGURES = (
+    "recall",
+    "low",
+    "high",
+    "chance",
+    "corrected_recall",
+    "precision",
+    "marks_per_100_m",
+    "duplicates",
+    "consistency",
+    "f",
+)
+"""The pooled figures of scores.json, in the order in which they are listed."""
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One variant of a scenario.
+
+    Attributes
+    ----------
+    name : str
+        Name of its results folder.
+    title : str
+        What it is; may be empty.
+    factors : dict of str to str
+        What was varied -> how it is here.
+    settings : dict
+        Key of the scenario -> value that makes the difference.
+    runs : int
+        How many there are.
+    figures : dict of str to float
+        `FIGURES`, pooled over the runs; NaN where there is none.
+    shares, published : dict of str to float
+        Location -> share of runs in which it was found, here and as published.
+    """
+
+    name: str
+    title: str
+    factors: dict[str, str]
+    settings: dict[str, Any]
+    runs: int
+    figures: dict[str, float]
+    shares: dict[str, float]
+    published: dict[str, float]
+
+    @property
+    def distance(self) -> float:
+        """Root mean square difference of the shares to the published ones; NaN without any."""
+        both = [self.shares[key] - share for key, share in self.published.items()]
+        return math.sqrt(sum(d * d for d in both) / len(both)) if both else math.nan
+
+    @property
+    def expected_distance(self) -> float:
+        """Distance of runs that find each location with just the published probability.
+
+        The square root of the mean of p (1 - p) / n: what the toss of n coins a location leaves.
+        """
+        if not self.published or self.runs == 0:
+            return math.nan
+        spread = [p * (1.0 - p) / self.runs for p in self.published.values()]
+        return math.sqrt(sum(spread) / len(spread))
+
+
+@dataclass(frozen=True)
+class Variants:
+    """A folder of variants.
+
+    Attributes
+    ----------
+    folder : Path
+        Where they are.
+    title, description : str
+        Of the scenario.
+    done : tuple of Variant
+        Those that have results, in the order of the file.
+    missing : tuple of str
+        Names of those that have none yet.
+    published_in : str
+        Where the published shares stand; may be empty.
+    """
+
+    folder: Path
+    title: str
+    description: str
+    done: tuple[Variant, ...]
+    missing: tuple[str, ...]
+    published_in: str
+
+    @property
+    def factors(self) -> tuple[str, ...]:
+        """Every factor, in the order in which they first appear."""
+        return tuple(dict.fromkeys(name for variant in self.done for name in variant.factors))
+
+    @property
+    def nearest(self) -> Variant | None:
+        """The variant whose shares come nearest to the published ones."""
+        known = [variant for variant in self.done if not math.isnan(variant.distance)]
+        return min(known, key=lambda variant: variant.distance, default=None)
+
+
+def has_variants(folder: Path) -> bool:
+    """Tell whether a folder holds the variants of a scenario."""
+    return (folder / VARIANTS).is_file()
+
+
+def read_variants(folder: Path) -> Variants:
+    """Read the variants of a scenario and their scores.
+
+    Parameters
+    ----------
+    folder : Path
+        A folder that ``ssrics run`` wrote for a scenario with variants.
+
+    Raises
+    ------
+    ResultsError
+        variants.json or a variant's scores.json is missing, damaged or newer than this program.
+    """
+    file = folder / VARIANTS
+    data = _json(file)
+    try:
+        if data["format"] != FORMAT or not isinstance(data["version"], int):
+            raise ResultsError(f"{file}: is no list of variants")
+        if data["version"] > VERSION:
+            raise ResultsError(
+                f"{file}: variants of version {data['version']}, this program reads up to {VERSION}"
+            )
+        listed = [_listed(file, entry) for entry in data["variants"]]
+        title, description = str(data["title"]), str(data.get("description") or "")
+    except (KeyError, TypeError, AttributeError) as e:
+        raise ResultsError(f"{file}: is damaged: {e!r}") from None
+    done, missing, sources = [], [], []
+    for entry in listed:
+        at = folder / entry["name"]
+        if not (at / MANIFEST).is_file():
+            missing.append(entry["name"])
+            continue
+        runs = len(read_manifest(at)["runs"])
+        scores = _json(at / SCORES) if (at / SCORES).is_file() else {}
+        try:
+            done.append(_variant(entry, runs, scores))
+            sources.append(str(scores.get("published_in", "")))
+        except (KeyError, TypeError, ValueError, AttributeError) as e:
+            raise ResultsError(f"{at / SCORES}: is damaged: {e!r}") from None
+    if not done:
+        raise ResultsError(f"{folder}: no variant has results; there is nothing to report")
+    return Variants(
+        folder, title, description, tuple(done), tuple(missing), next(filter(None, sources), "")
+    )
+
+
+def _listed(file: Path, entry: dict[str, Any]) -> dict[str, Any]:
+    """Check an entry of variants.json; a variant's name is that of its folder, and no path."""
+    name = str(entry["name"])
+    if name in ("", ".", "..") or set(name) & set("/\\\0"):
+        raise ResultsError(f"{file}: '{name}' cannot be the name of a variant's folder")
+    return {
+        "name": name,
+        "title": str(entry.get("title") or ""),
+        "factors": {str(k): str(v) for k, v in (entry.get("factors") or {}).items()},
+        "settings": dict(entry.get("set") or {}),
+    }
+
+
+def _variant(entry: dict[str, Any], runs: int, scores: dict[str, Any]) -> Variant:
+    """Join what is listed of a variant with its scores; none at all where nothing is labelled."""
+    pooled = scores.get("pooled", {})
+    shares, published = {}, {}
+    for place in scores.get("locations", []):
+        if place["share"] is not None:
+            shares[str(place["location"])] = float(place["share"])
+            if place["published"] is not None:
+                published[str(place["location"])] = float(place["published"])
+    return Variant(
+        **entry,
+        runs=runs,
+        figures={name: _number(pooled.get(name)) for name in FIGURES},
+        shares=shares,
+        published=published,
+    )
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else float(value)
+
+
+def _json(file: Path) -> dict[str, Any]:
+    try:
+        data = json.loads(file.read_text(encoding="utf-8"))
+    except OSError as e:
+        raise ResultsError(f"{file}: cannot be read ({e.strerror})") from None
+    except ValueError as e:
+        raise ResultsError(f"{file}: is damaged: {e}") from None
+    if not isinstance(data, dict):
+        raise ResultsError(f"{file}: is damaged: expected a mapping")
+    return data

@@ -1,0 +1,57 @@
+"""Reads the entries that a scenario names: the modules of the mind, the robot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ssrics_like import library, settings
+from ssrics_like.memory.profile import MemoryProfile
+from ssrics_like.perception.profile import PerceptionProfile
+from ssrics_like.productions.rulebook import load_rulebook
+from ssrics_like.productions.rules import Rulebook
+from ssrics_like.world.robot import RobotProfile
+
+
+def load_perception(name: str | Path) -> PerceptionProfile:
+    """Read a perception profile: a library entry, or a path.
+
+    Raises
+    ------
+    LibraryError, SettingsError
+        There is none of this name; it is wrong.
+    """
+    document = settings.read_document(library.find("perception", name))
+    return settings.validated(PerceptionProfile, document)
+
+
+def load_memory(name: str | Path) -> MemoryProfile:
+    """Read a memory profile: a library entry, or a path.
+
+    Raises
+    ------
+    LibraryError, SettingsError
+        There is none of this name; it is wrong.
+    """
+    return settings.validated(MemoryProfile, settings.read_document(library.find("memory", name)))
+
+
+def load_productions(name: str | Path) -> Rulebook:
+    """Read a rule set: a library entry, or a path.
+
+    Raises
+    ------
+    LibraryError, RuleError
+        There is none of this name; it is wrong.
+    """
+    return load_rulebook(library.find("productions", name))
+
+
+def load_robot(name: str | Path) -> RobotProfile:
+    """Read a robot: an entry of scenarios/robots, or a path.
+
+    Raises
+    ------
+    LibraryError, SettingsError
+        There is none of this name; it is wrong.
+    """
+    return settings.validated(RobotProfile, settings.read_document(library.find("robots", name)))

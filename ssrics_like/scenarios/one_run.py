@@ -1,0 +1,129 @@
+"""Carries out one run: observations through the model into a folder of its own."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ssrics_like.model import CognitiveModel
+from ssrics_like.perception.observation import Observation
+from ssrics_like.results.recorder import JUMP_M, JUMP_M_S, Recorder
+from ssrics_like.scenarios.feeds import Feed, make_feed
+from ssrics_like.scenarios.resolving import Resolved
+
+PROGRESS_EVERY = 64  # scans
+
+
+@dataclass(frozen=True)
+class Part:
+    """A model that a run's observations go to.
+
+    Attributes
+    ----------
+    resolved : Resolved
+        The scenario, or a variant of it.
+    folder : Path
+        Where its run is written; empty.
+    """
+
+    resolved: Resolved
+    folder: Path
+
+
+@dataclass(frozen=True)
+class Task:
+    """One run of one drive or log, for one model or several.
+
+    Attributes
+    ----------
+    run : int
+        Its number.
+    parts : tuple of Part
+        They have the same source, and get the same observations.
+    """
+
+    run: int
+    parts: tuple[Part, ...]
+
+
+def carry_out(task: Task, progress: Callable[[float], None]) -> list[dict[str, Any]]:
+    """Carry out a task and return, for each part, the run's entry for the manifest.
+
+    Raises
+    ------
+    SourceError, ResultsError, EngineError
+        The log cannot be read, a folder cannot be written, the rules never come to rest.
+    """
+    feed = make_feed(task.parts[0].resolved, task.run)
+    if len(task.parts) == 1:
+        return [_through(task.parts[0], task.run, feed, _watched(feed, progress))]
+    # pyactr keeps state for the whole process, so models follow each other, and the drive waits.
+    observations = list(feed)
+    entries = []
+    for done, part in enumerate(task.parts):
+        entries.append(_through(part, task.run, feed, observations))
+        progress((done + 1) / len(task.parts))
+    return entries
+
+
+def _watched(feed: Feed, progress: Callable[[float], None]) -> Iterable[Observation]:
+    for observation in feed:
+        yield observation
+        if observation.index % PROGRESS_EVERY == 0:
+            progress(feed.progress)
+    progress(1.0)
+
+
+def _through(
+    part: Part, run: int, feed: Feed, observations: Iterable[Observation]
+) -> dict[str, Any]:
+    """Let a model observe, and write what it does."""
+    resolved = part.resolved
+    seed = int(np.random.SeedSequence([resolved.scenario.seed, run]).generate_state(1)[0])
+    rest = iter(observations)
+    first = next(rest)  # a source without any scan has raised already
+    cap_m = resolved.perception.range_cap_m
+    with Recorder(part.folder, run, first.t_s, cap_m) as recorder:
+        model = CognitiveModel(
+            resolved.perception,
+            resolved.productions,
+            resolved.memory,
+            seed=seed,
+            frame=feed.frame,
+            trace=recorder.traced,
+            retrieved=recorder.retrieved,
+        )
+        for observation in itertools.chain([first], rest):
+            recorder.decided_all(model.observe(observation))
+            recorder.observed(observation, model.perception.novelty)
+        recorder.decided_all(model.finish())
+        entry = {**recorder.finish(model), **feed.entry(), "seed": seed}
+    return {**entry, "warnings": [*feed.warnings(), *_warnings(resolved, entry)]}
+
+
+def _warnings(resolved: Resolved, entry: dict[str, Any]) -> list[str]:
+    """Say what in a run's counts the user should know."""
+    found = []
+    if not entry["novelty"]["intervals"]:
+        found.append(
+            f"the {'log' if resolved.log else 'drive'} has {entry['scans']} scans, fewer than one "
+            f"interval of {resolved.perception.interval}: nothing can be novel"
+        )
+    if entry["jumps"] and resolved.log:
+        found.append(
+            f"the robot's pose jumped {entry['jumps']} times by more than {JUMP_M:g} m and faster "
+            f"than {JUMP_M_S:g} m/s; the path's length and the places of landmarks suffer from it"
+        )
+    if entry["undecided"]:
+        found.append(f"{entry['undecided']} reflexes were still undecided at the end of the run")
+    if entry["restarts"]:
+        found.append(
+            f"the laser changed {entry['restarts']} times (beams or angles); each time the "
+            "interval of the novelty algorithm began anew"
+        )
+    return found

@@ -1,0 +1,178 @@
+"""From a scenario to all that a run needs: files read, overrides applied, places checked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from ssrics_like import settings
+from ssrics_like.errors import SettingsError, choices, nearest
+from ssrics_like.memory.profile import MemoryProfile
+from ssrics_like.perception.profile import PerceptionProfile
+from ssrics_like.productions.rules import EngineParameters, Rulebook
+from ssrics_like.scenarios.modules import (
+    load_memory,
+    load_perception,
+    load_productions,
+    load_robot,
+)
+from ssrics_like.scenarios.place import Place, place_of
+from ssrics_like.scenarios.schema import MODULES, Scenario, at, read_scenario
+from ssrics_like.scenarios.world_settings import Strict
+
+
+@dataclass(frozen=True)
+class Resolved:
+    """A scenario with its files read and overrides applied: all that a run needs.
+
+    Attributes
+    ----------
+    scenario : Scenario
+        As it was written, with what was set at the command line.
+    log : Path or None
+        The log that observations come from,
+    place : Place or None
+        or the building and robot.
+    perception, productions, memory
+        The modules of the mind.
+    """
+
+    scenario: Scenario
+    log: Path | None
+    place: Place | None
+    perception: PerceptionProfile
+    productions: Rulebook
+    memory: MemoryProfile
+
+    @property
+    def source_name(self) -> str:
+        """Name of the log or map."""
+        return self.log.name if self.log else self.place.name if self.place else ""
+
+    def as_data(self) -> dict[str, Any]:
+        """Return everything that decides the results, as plain values for the manifest."""
+        book, scenario = self.productions, self.scenario
+        data: dict[str, Any] = {"title": scenario.title, "description": scenario.description}
+        if scenario.source is not None and self.log is not None:
+            data["source"] = {**scenario.source.model_dump(), "log": self.log.name}
+        if self.place is not None:
+            data["world"] = self.place.as_data()
+        return {
+            **data,
+            "perception": {"name": scenario.perception, **self.perception.model_dump()},
+            "productions": {
+                "name": scenario.productions,
+                "title": book.title,
+                "parameters": book.parameters.model_dump(),
+                "chunk_types": {name: list(slots) for name, slots in book.chunk_types.items()},
+                "goal": book.goal,
+                "harvest": list(book.harvest),
+                "rules": {
+                    rule.name: {"why": rule.why, "utility": rule.utility, "rule": rule.source}
+                    for rule in book.rules
+                },
+            },
+            "memory": {"name": scenario.memory, **self.memory.model_dump()},
+            "set": scenario.set,
+            "humans": Path(scenario.humans).name if scenario.humans else None,
+            "match_radius_m": scenario.match_radius_m,
+            "published": scenario.published.model_dump() if scenario.published else None,
+            "runs": scenario.runs,
+            "seed": scenario.seed,
+        }
+
+
+class _Engine(Strict):
+    """The part of a rule set that ``--set productions.parameters...`` reaches."""
+
+    parameters: EngineParameters
+
+
+def load_resolved(path: Path, overrides: list[str] | None = None) -> Resolved:
+    """Read a scenario file and all that it names.
+
+    Raises
+    ------
+    LibraryError, SettingsError, RuleError, MapError
+        A name is unknown, or a file or override is wrong.
+    """
+    scenario, document = read_scenario(path)
+    return resolve(scenario, path.parent, overrides, where=document.where)
+
+
+def resolve(
+    scenario: Scenario,
+    base: Path,
+    overrides: list[str] | None = None,
+    *,
+    where: Callable[[settings.Key], str] | None = None,
+) -> Resolved:
+    """Read the files that a scenario names and apply ``--set`` overrides.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        As read, or made from command-line arguments.
+    base : Path
+        Folder that relative paths start from.
+    overrides : list of str
+        ``key=value`` each: ``memory.decay=0.3``, ``runs=3``, ``source.strict=true``.
+    where : callable, optional
+        Gives the place of a key in the scenario's file, for messages.
+
+    Raises
+    ------
+    LibraryError, SettingsError, RuleError, MapError
+        A name is unknown, or a file or override is wrong.
+    """
+    typed = dict(settings.parse_override(text) for text in overrides or [])
+    heads = (*MODULES, "robot")
+    changes: dict[str, dict[str, Any]] = {module: {} for module in heads}
+    own: dict[str, Any] = {}
+    for key, value in {**scenario.set, **typed}.items():
+        head, dot, rest = key.partition(".")
+        if head in changes and dot and (head != "robot" or scenario.world is not None):
+            changes[head][rest] = value
+        elif key in typed and head in Scenario.model_fields:
+            own[key] = value
+        else:
+            raise _unknown(key, head, typed, scenario)
+    scenario = settings.override(scenario, own, "")
+    # A path that was typed starts where it was typed; one in a scenario file, at that file.
+    start = {
+        key: Path() if key in own else base
+        for key in (*MODULES, "source.log", "world.map", "world.robot", "world.locations")
+    }
+    perception = load_perception(at(start["perception"], scenario.perception))
+    book = load_productions(at(start["productions"], scenario.productions))
+    memory = load_memory(at(start["memory"], scenario.memory))
+    engine = settings.override(
+        _Engine(parameters=book.parameters), changes["productions"], "productions."
+    )
+    place = None
+    if scenario.world is not None:
+        robot = load_robot(at(start["world.robot"], scenario.world.robot))
+        robot = settings.override(robot, changes["robot"], "robot.")
+        place = place_of(scenario.world, robot, start, where or _unplaced)
+    return Resolved(
+        scenario=scenario,
+        log=start["source.log"] / scenario.source.log if scenario.source else None,
+        place=place,
+        perception=settings.override(perception, changes["perception"], "perception."),
+        productions=replace(book, parameters=engine.parameters),
+        memory=settings.override(memory, changes["memory"], "memory."),
+    )
+
+
+def _unknown(key: str, head: str, typed: dict[str, Any], scenario: Scenario) -> SettingsError:
+    fields = list(Scenario.model_fields) if key in typed else []
+    heads = [*MODULES, *(["robot"] if scenario.world is not None else [])]
+    known = [*fields, *(f"{module}." for module in heads)]
+    hint = nearest(head, (*fields, *heads))
+    return SettingsError(f"--set {key}: unknown key '{head}'{hint}; known: {choices(known)}")
+
+
+def _unplaced(_key: settings.Key) -> str:
+    return ""
