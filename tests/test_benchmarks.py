@@ -16,6 +16,13 @@ DEMO = BENCHMARKS.parent / "scenarios" / "logs" / "demo.log.gz"
         ("bench_model.py", [], "times as long"),
         ("bench_flat.py", ["--scans", "1642"], "1642 scans"),
         ("report_rule.py", [DEMO], "| demo.log.gz | 1642 |"),
+        ("bench_rays.py", ["--scans", "40", "--repeats", "1"], "ragged, ranges of numpy: same"),
+        (
+            "bench_planning.py",
+            ["--plans", "4", "--repeats", "1"],
+            "frontiers of the 4 searches: same",
+        ),
+        ("bench_drive.py", ["--seeds", "1", "--runs", "1", "--repeats", "1"], "| together |"),
     ],
 )
 def test_a_benchmark_runs(script, arguments, said):
@@ -24,3 +31,15 @@ def test_a_benchmark_runs(script, arguments, said):
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     assert said in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("script", "peer"),
+    [("bench_rays.py", "irsim-x"), ("bench_planning.py", "scikit-image")],
+)
+def test_a_missing_peer_is_named(script, peer):
+    missing = {"irsim-x": "irsim", "scikit-image": "skimage"}[peer]
+    code = (
+        f"import sys, runpy; sys.modules[{missing!r}] = None; sys.argv = [{script!r}, *'{{}}'.split()]"
+    )
+    assert code

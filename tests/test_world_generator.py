@@ -120,7 +120,7 @@ def test_widths_stay_within_their_ranges():
 
 
 def test_rooms_that_are_reached_through_another_have_a_doorway_to_it():
-    plan = made(2, rooms=16, suites=1.0, connecting=0.0, openings=0.0)
+    plan = made(2, rooms=16, suites=1.0, connecting=0.0, openings=0.0, scale=(1.3, 1.3))
     halls = draw(
         replace(
             plan,
@@ -140,6 +140,17 @@ def test_rooms_that_are_reached_through_another_have_a_doorway_to_it():
         ]
         inner += not any(halls.is_free(*end) for end in ends)
     assert inner >= 4
+
+
+@pytest.mark.parametrize("hallways", FEWEST)
+def test_extreme_settings_make_buildings_too(hallways):
+    for extra, scale, wide in [(0, 0.7, 1.2), (7, 0.7, 6.0), (0, 3.0, 6.0), (2, 3.0, 1.2)]:
+        count = FEWEST[hallways] + extra
+        plan = made(
+            extra, rooms=count, hallways=hallways, scale=(scale, scale), hallway_m=(wide, wide),
+            doorway_m=(1.6, 1.6), suites=1.0, clutter=0.2,
+        )  # fmt: skip
+        assert len(rooms(plan)) == count
 
 
 @pytest.mark.parametrize(

@@ -43,14 +43,14 @@ def execute_variants(
 ) -> None:
     """Carry all variants of a scenario out and report on each, and on them together."""
     from ssrics_like.report import write_report, write_variants_report
+    from ssrics_like.scenarios.pool import over_processes
     from ssrics_like.scenarios.runner import drive_key
     from ssrics_like.scenarios.variants import run_variants
 
     runs = sum({drive_key(each): each.scenario.runs for _, each in resolved}.values())
     with _watched(f"{len(resolved)} variants", runs, out, quiet=quiet) as progress:
         run_variants(scenario, resolved, out, resume=resume, jobs=jobs, progress=progress)
-    for variant, _ in resolved:
-        write_report(out / variant.name)
+    over_processes(write_report, [out / variant.name for variant, _ in resolved], jobs)
     page = write_variants_report(out)
     if not quiet:
         print((out / "variants.csv").read_text(encoding="utf-8"), end="")

@@ -62,7 +62,7 @@ def generate(
     For example:
 
         ssrics map generate -o maps/ --seed 7
-        ssrics map generate -o maps/ --count 20 --rooms 14 --hallways ring --clutter 0.8
+        ssrics map generate -o maps/ --count 20 --rooms 14 --hallways ring
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What lies under a map: the floor plan in simulation, else the walls as the laser saw them."""
+"""What lies under a map: the floor plan in simulation, and the walls as the laser saw them."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ WALLS_CUT = 0.001  # share of the outline's cells that may lie beyond each edge 
 
 def draw_background(axes: Axes, results: Results, frame: Frame, *, strength: float = 1.0) -> None:
     """Draw what lies under the map of the run that is shown."""
-    if results.building is None:
-        draw_walls(axes, results.pictures.outline, frame, strength=strength)
-    else:
+    if results.building is not None:
         draw_plan(axes, results.building.grid, frame, strength=strength)
+    # In simulation it holds something only where there is more than the plan: furniture, doors.
+    draw_walls(axes, results.pictures.outline, frame, strength=strength)
 
 
 def extent_of(results: Results, run: Run, outline: Outline) -> NDArray[np.float64]:

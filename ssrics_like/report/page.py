@@ -40,7 +40,7 @@ FIGURES: tuple[tuple[str, str, str, Callable[[Results], Drawing | None], str], .
     ("histograms", "Histograms", "A novel and a bored interval", draw_histograms,
      "The run ended before the first interval was complete, so there are no correlations to show."),
     ("timeline", "Timeline", "Buffers and productions", draw_timeline,
-     "No reflex was decided in this run, so no buffer was used."),
+     "No reflex was decided in this run, so no buffer was used; or the scenario keeps no trace."),
     ("activation", "Activation", "Activation of landmarks", draw_activation,
      ("Declarative memory held no landmark in this run: none was declared, or the rule set keeps "
       "no memory.")),

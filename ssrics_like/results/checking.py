@@ -46,7 +46,10 @@ def check_results(path: Path) -> dict[str, Any]:
         for ending in ("json", "graphml"):
             if len(load_topology(path / "topology" / f"{name}.{ending}")) != count:
                 raise ResultsError(f"{path}: topology/{name}.{ending} has not {count} landmarks")
-        for file in (path / "trace" / f"{name}.jsonl", path / "figures" / f"{name}.json"):
+        files = [path / "figures" / f"{name}.json"]
+        if manifest["scenario"].get("trace", True):
+            files.append(path / "trace" / f"{name}.jsonl")
+        for file in files:
             if not file.is_file() or not file.stat().st_size:
                 raise ResultsError(f"{file}: is missing or empty")
     return manifest

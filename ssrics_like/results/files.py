@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -14,6 +15,7 @@ from ssrics_like.atomic import write_atomically
 __all__ = ["csv_line", "csv_text", "json_text", "number", "plain", "write_atomically"]
 
 DECIMALS = 6
+_SPECIAL = re.compile('[,"\r\n]')
 
 
 def number(value: float | None) -> str:
@@ -49,11 +51,12 @@ def json_text(data: Any, *, indent: int | None = 2) -> str:
 
 def csv_line(values: Iterable[Any]) -> str:
     """Return one CSV row; numbers as by `number`."""
-    buffer = io.StringIO()
-    csv.writer(buffer, lineterminator="\n").writerow(
-        number(v) if isinstance(v, int | float) or v is None else str(v) for v in values
-    )
-    return buffer.getvalue()
+    cells = [number(v) if v is None or isinstance(v, int | float) else str(v) for v in values]
+    if any(_SPECIAL.search(cell) for cell in cells if cell and not cell[0].isdigit()):
+        buffer = io.StringIO()
+        csv.writer(buffer, lineterminator="\n").writerow(cells)
+        return buffer.getvalue()
+    return ",".join(cells) + "\n"
 
 
 def csv_text(header: Sequence[str], rows: Iterable[Iterable[Any]]) -> str:

@@ -203,7 +203,8 @@ class ResultsFolder:
                 ("trace.jsonl", f"trace/{folder.name}.jsonl"),
                 ("figures.json", f"figures/{folder.name}.json"),
             ):
-                _link(folder / source, self.path / target)
+                if (folder / source).is_file():  # a scenario may do without the trace
+                    _link(folder / source, self.path / target)
         manifest: dict[str, Any] = plain(
             {
                 "format": FORMAT,

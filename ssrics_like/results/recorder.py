@@ -39,11 +39,15 @@ class Recorder:
         Number of the run.
     start_s : float
         Time of the first observation: zero of the engine's clock.
-    range_cap_m : float
-        Readings from here on are not drawn.
+    drawn_to_m : float
+        Readings up to here are drawn as the building's outline; 0 draws none.
+    trace : bool
+        Whether the modules' events are written.
     """
 
-    def __init__(self, folder: Path, run: int, start_s: float, range_cap_m: float) -> None:
+    def __init__(
+        self, folder: Path, run: int, start_s: float, drawn_to_m: float, *, trace: bool = True
+    ) -> None:
         self.folder = folder
         self.run = run
         self.scans = 0
@@ -55,11 +59,13 @@ class Recorder:
         self._previous: Observation | None = None
         self._written_s = -math.inf
         self._novelty = Series()
-        self._outline = Outline(range_cap_m)
+        self._outline = Outline(drawn_to_m)
+        self._drawing = drawn_to_m > 0.0
+        self._names = ["decisions.csv", "path.csv", *(["trace.jsonl"] if trace else [])]
         self._files: dict[str, TextIO] = {}
 
     def __enter__(self) -> Self:
-        for name in ("decisions.csv", "path.csv", "trace.jsonl"):
+        for name in self._names:
             self._files[name] = (self.folder / name).open("w", encoding="utf-8", newline="\n")
         return self
 
@@ -89,7 +95,8 @@ class Recorder:
             self._files["path.csv"].write(csv_line(tables.path_row(self.run, observation)))
         if novelty is not None:
             self._novelty.append(observation.t_s, novelty)
-        self._outline.add(observation)
+        if self._drawing:
+            self._outline.add(observation)
 
     def decided_all(self, decisions: list[Decision]) -> None:
         """Note decisions."""
@@ -99,10 +106,14 @@ class Recorder:
 
     def traced(self, event: TraceEvent) -> None:
         """Note one event of the engine."""
+        if "trace.jsonl" not in self._files:
+            return
         self._trace(event.t_s, event.module, event.action, event.name, chunk=event.chunk)
 
     def retrieved(self, t_s: float, retrieval: Retrieval) -> None:
         """Note every term of every candidate's activation."""
+        if "trace.jsonl" not in self._files:
+            return
         found = retrieval.candidates
         columns = {
             "names": list(found.names),

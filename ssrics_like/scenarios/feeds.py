@@ -31,9 +31,12 @@ class Feed(Protocol):
     ----------
     frame : str
         Frame of the poses.
+    shows_more_than_the_map : bool
+        Whether what the laser meets is worth drawing: there is no map, or it does not show all.
     """
 
     frame: str
+    shows_more_than_the_map: bool
 
     def __iter__(self) -> Iterator[Observation]:
         """Return the observations in order of time."""
@@ -60,6 +63,7 @@ class LogFeed:
 
     def __init__(self, source: LogSource) -> None:
         self.frame = source.frame
+        self.shows_more_than_the_map = True
         self._source = source
 
     def __iter__(self) -> Iterator[Observation]:
@@ -105,6 +109,7 @@ class DriveFeed:
             grid = furnish(
                 grid, rng, world.furniture.pieces, _kept_clear(place), place.robot.radius_m
             )
+        self.shows_more_than_the_map = grid is not place.building.grid or bool(place.doors)
         self._exploring = any(leg.explore for leg in world.journey)
         self.simulation = Simulation(
             grid,
@@ -128,7 +133,7 @@ class DriveFeed:
     def progress(self) -> float:
         """Share of the building seen, while it is explored; else of the time limit."""
         if self._exploring:
-            return min(self.simulation.coverage, 0.99)
+            return min(self.simulation.progress, 0.99)
         return self.simulation.t_s / self.simulation.time_limit_s
 
     def entry(self) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import signal
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
 from typing import Any
 
 from ssrics_like.errors import ResultsError
@@ -69,6 +70,24 @@ def carry_out_all(tasks: Sequence[Task], jobs: int, progress: Progress, done: Do
         finally:
             stop.set()  # whoever still works notices at its next scans
             pool.shutdown(cancel_futures=True)
+
+
+def over_processes(function: Callable[[Path], object], paths: Sequence[Path], jobs: int) -> None:
+    """Call a function of a module for each path, in processes of their own if there are several.
+
+    Raises
+    ------
+    SsricsError
+        As the function raises.
+    """
+    if min(jobs, len(paths)) <= 1:
+        for path in paths:
+            function(path)
+        return
+    context = multiprocessing.get_context("forkserver")
+    with ProcessPoolExecutor(min(jobs, len(paths)), mp_context=context) as pool:
+        for _ in pool.map(function, paths):
+            pass
 
 
 def _collect(

@@ -78,6 +78,7 @@ class Resolved:
             "set": scenario.set,
             "humans": Path(scenario.humans).name if scenario.humans else None,
             "match_radius_m": scenario.match_radius_m,
+            "trace": scenario.trace,
             "published": scenario.published.model_dump() if scenario.published else None,
             "runs": scenario.runs,
             "seed": scenario.seed,

@@ -103,6 +103,8 @@ class Scenario(Strict):
         CSV of people's choices of landmarks, relative to the scenario file.
     match_radius_m : float
         A mark within this of a location has found it.
+    trace : bool
+        Whether every event of every module is written; many variants are better off without.
     published : Published
         Figures to set beside ours.
     factors : dict
@@ -124,6 +126,7 @@ class Scenario(Strict):
     seed: Annotated[int, Field(ge=0)] = 2006
     humans: str | None = None
     match_radius_m: Annotated[float, Field(gt=0.0, le=100.0)] = 1.0
+    trace: bool = True
     published: Published | None = None
     factors: dict[str, Annotated[dict[str, dict[str, Any]], Field(min_length=1)]] = Field(
         default_factory=dict

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
     from ssrics_like.world.navigation import Navigator
 
-LEAST_M = 0.2  # a shorter frontier is a gap between beams or noise
+LEAST_M = 0.3  # a shorter frontier is a gap between beams or noise
 PEEK_M = 0.35  # from this near a frontier can be looked across
-TRIES = 3  # a frontier that was gone to in vain so often is left
+TRIES = 2  # a frontier that was gone to in vain so often is left
 SET_ASIDE_M = 0.5  # what is left, around where the robot looked
 HOLD_S = 0.5  # between choices, or the robot could waver
 CHECK_S = 0.5  # between looks at whether the way is still open
@@ -35,6 +35,8 @@ LOOKS = 2  # scans taken at a frontier before it is set aside
 
 class Exploration:
     """The leg ``explore: frontier``: it ends when no frontier is left that can be reached."""
+
+    ending = "no frontier left"
 
     def __init__(self) -> None:
         self.notes: list[str] = []

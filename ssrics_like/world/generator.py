@@ -159,7 +159,7 @@ def _rooms(
     layout: Layout, settings: BuildingSettings, suites: int, rng: np.random.Generator
 ) -> Rooms:
     """Cut all blocks into rooms."""
-    habits = Habits(settings.doorway_m, settings.openings, settings.suites, settings.connecting)
+    habits = Habits(settings.doorway_m, settings.openings, settings.connecting)
     blocks = layout.blocks
     deep = np.array([block.depth >= 2 * SUITE_MIN + INNER for block in blocks])
     columns = max(settings.rooms - suites, len(blocks))

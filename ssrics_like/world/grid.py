@@ -56,15 +56,21 @@ class GridMap:
 
     def pose_in_map(self, pose: Pose) -> Pose:
         """Turn a pose of the grid frame into one of the map frame."""
-        x_m, y_m = self.points_in_map([[pose.x_m, pose.y_m]])[0]
-        theta_rad = math.remainder(pose.theta_rad + self.origin.theta_rad, math.tau)
-        return Pose(float(x_m), float(y_m), theta_rad)
+        o = self.origin
+        cos, sin = math.cos(o.theta_rad), math.sin(o.theta_rad)
+        return Pose(
+            o.x_m + cos * pose.x_m - sin * pose.y_m,
+            o.y_m + sin * pose.x_m + cos * pose.y_m,
+            math.remainder(pose.theta_rad + o.theta_rad, math.tau),
+        )
 
     def pose_in_grid(self, pose: Pose) -> Pose:
         """Turn a pose of the map frame into one of the grid frame."""
-        x_m, y_m = self.points_in_grid([[pose.x_m, pose.y_m]])[0]
-        theta_rad = math.remainder(pose.theta_rad - self.origin.theta_rad, math.tau)
-        return Pose(float(x_m), float(y_m), theta_rad)
+        o = self.origin
+        cos, sin = math.cos(o.theta_rad), math.sin(o.theta_rad)
+        x, y = pose.x_m - o.x_m, pose.y_m - o.y_m
+        theta_rad = math.remainder(pose.theta_rad - o.theta_rad, math.tau)
+        return Pose(cos * x + sin * y, cos * y - sin * x, theta_rad)
 
     def points_in_map(self, places: ArrayLike) -> NDArray[np.float64]:
         """Turn places of the grid frame, shape (n, 2), into places of the map frame."""

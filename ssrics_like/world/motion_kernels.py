@@ -111,7 +111,7 @@ def _room(
     ) + up * ((1.0 - right) * clearance[row + 1, column] + right * clearance[row + 1, column + 1])
     for i in range(discs.shape[0]):
         room = min(room, math.hypot(discs[i, 0] - x, discs[i, 1] - y) - discs[i, 2])
-    return room
+    return float(room)
 
 
 @compiled

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ssrics_like.perception.observation import LaserScan, Pose
     from ssrics_like.world.robot import RobotProfile
 
-MAPPING_S = 0.2  # a scan is mapped this often at most; faster ones add little
+MAPPING_S = 0.3  # a scan is mapped this often at most; faster ones add little
 STUCK_S = 6.0  # so long without getting anywhere is too long; a turn on the spot takes less
 MOVED_M = 0.05
 BACKING_S = 1.0
@@ -60,10 +60,13 @@ class Leg(Protocol):
 
     Attributes
     ----------
+    ending : str
+        What its end is called.
     notes : list of str
         What did not go as planned, for the user.
     """
 
+    ending: str
     notes: list[str]
 
     def begin(self, navigator: Navigator, t_s: float) -> None:
@@ -94,6 +97,8 @@ class Navigator:
     ----------
     explored : OccupancyGrid
         What it has seen.
+    known_cells : int
+        How many cells of it are not unknown.
     planned : OccupancyGrid or None
         The floor plan that it was given, corrected by what it has seen; None until a leg needs it.
     pose : Pose
@@ -116,6 +121,7 @@ class Navigator:
         self.cell_m = cell_m
         self.explored = OccupancyGrid(shape, cell_m, robot.radius_m)
         self.planned: OccupancyGrid | None = None
+        self.known_cells = 0
         self.errand = Errand()
         self.free_m = 0.0
         self.finished = not self.legs
@@ -152,7 +158,7 @@ class Navigator:
         arrived = self.errand.status == ARRIVED
         if arrived or t_s - self._mapped_s >= MAPPING_S - 1e-9:
             self._mapped_s = t_s
-            self.explored.take(scan, laser, self._directions)
+            self.known_cells += self.explored.take(scan, laser, self._directions)
             if self.planned is not None:
                 self.planned.take(scan, laser, self._directions)
         self.free_m = free_ahead(

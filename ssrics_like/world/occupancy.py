@@ -93,10 +93,9 @@ class OccupancyGrid:
             which only a robot that is there already may pass; SQUEEZE and TIGHT close to an
             obstacle; OPEN.
         """
-        costs = np.where(self._counts[2] > 0, TIGHT, OPEN).astype(np.uint8)
-        costs[self._counts[1] > 0] = SQUEEZE
-        costs[self._counts[0] > 0] = BLOCKED
-        costs[self.evidence >= 0] = 0
+        costs = np.empty(self.evidence.shape, np.uint8)
+        prices = (BLOCKED, SQUEEZE, TIGHT, OPEN)
+        occupancy_kernels.passing_costs(self.evidence, self._counts, prices, costs)
         return costs
 
 

@@ -174,3 +174,30 @@ def take_scan(
         if 0 <= row < rows and 0 <= column < columns:
             new += add_evidence(evidence, counts, discs, row, column, HIT)
     return new
+
+
+@compiled
+def passing_costs(
+    evidence: NDArray[np.int8],
+    counts: NDArray[np.int16],
+    prices: tuple[int, int, int, int],
+    costs: NDArray[np.uint8],
+) -> None:
+    """Write what it costs to pass each cell.
+
+    `prices` are those of a cell with something within the first, second and third radius of
+    `counts`, and of one without; a cell that is not known to be free gets 0.
+    """
+    rows, columns = evidence.shape
+    for r in range(rows):
+        for c in range(columns):
+            if evidence[r, c] >= 0:
+                costs[r, c] = 0
+            elif counts[2, r, c] == 0:
+                costs[r, c] = prices[3]
+            elif counts[0, r, c] > 0:
+                costs[r, c] = prices[0]
+            elif counts[1, r, c] > 0:
+                costs[r, c] = prices[1]
+            else:
+                costs[r, c] = prices[2]

@@ -58,7 +58,6 @@ class Habits:
 
     doorway_m: tuple[float, float]
     openings: float
-    suites: float
     connecting: float
 
 

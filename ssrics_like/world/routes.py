@@ -39,6 +39,8 @@ class Route:
         The floor plan, in the cells of the robot's map.
     """
 
+    ending = "end of the route"
+
     def __init__(
         self,
         waypoints: Sequence[tuple[float, ...]],
@@ -124,6 +126,8 @@ class Wait:
     seconds : float
         For how long.
     """
+
+    ending = "end of the wait"
 
     def __init__(self, seconds: float) -> None:
         self.notes: list[str] = []

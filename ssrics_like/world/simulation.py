@@ -126,6 +126,12 @@ class Simulation:
         row, column = places.astype(np.int64).T
         return float(np.mean(navigator.explored.evidence[row, column] != 0))
 
+    @property
+    def progress(self) -> float:
+        """Number of cells seen as a share of those to be seen: quick, and rough."""
+        to_see = len(self._reachable) * (self.grid.cell_m / self.navigator.cell_m) ** 2
+        return self.navigator.known_cells / max(to_see, 1.0)
+
     def __iter__(self) -> Iterator[Observation]:
         """Drive, and yield an observation for each scan."""
         period_s = 1.0 / self.robot.laser.rate_hz
@@ -145,7 +151,7 @@ class Simulation:
             )
             self.navigator.look(self.t_s, pose, sensor, scan)
             if self.navigator.finished:
-                self.ended = "all legs done"
+                self.ended = self.navigator.legs[-1].ending
                 return
             if self.t_s + period_s > self.time_limit_s:
                 self.ended = f"time limit of {self.time_limit_s:g} s"
