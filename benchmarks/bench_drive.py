@@ -1,6 +1,6 @@
 """Simulated seconds a wall second of whole runs, where the time goes, and the whole command.
 
-    python benchmarks/bench_drive.py [--seeds N] [--runs N] [--jobs N] [--repeats N]
+    python benchmarks/bench_drive.py [--seeds N] [--limit S] [--runs N] [--jobs N] [--repeats N]
 
 Part 1: one run of the scenario `complex` in this process, with the full model and its tables and
 trace written, for several seeds and modules of the mind, after a run to warm up.
@@ -24,6 +24,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import wraps
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -125,6 +126,13 @@ class Stopwatch:
                 patch.stop()
 
 
+def load(chosen: list[str], seed: int, limit_s: float) -> Resolved:
+    resolved = load_resolved(find("scenarios", "complex"), [*chosen, f"seed={seed}"])
+    assert resolved.place is not None
+    settings = resolved.place.settings.model_copy(update={"time_limit_s": limit_s})
+    return replace(resolved, place=replace(resolved.place, settings=settings))
+
+
 def one_run(resolved: Resolved) -> Run:
     with tempfile.TemporaryDirectory() as folder:
         start = time.perf_counter()
@@ -151,13 +159,13 @@ def whole_command(runs: int, jobs: int) -> tuple[float, float]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", type=int, default=5, help="of parts 1 and 2")
+    parser.add_argument("--limit", type=float, default=3600.0, help="of their simulated seconds")
     parser.add_argument("--runs", type=int, default=14, help="of the whole command")
     parser.add_argument("--jobs", type=int, default=2, help="of the whole command")
     parser.add_argument("--repeats", type=int, default=3, help="of the whole command")
     arguments = parser.parse_args()
-    path = find("scenarios", "complex")
     resolved = {
-        name: [load_resolved(path, [*chosen, f"seed={k}"]) for k in range(arguments.seeds)]
+        name: [load(chosen, k, arguments.limit) for k in range(arguments.seeds)]
         for name, chosen in MINDS.items()
     }
     for each in resolved.values():

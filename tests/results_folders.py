@@ -299,6 +299,7 @@ def build_world(
             return 4.0
         return None if missed[run, number % 6] else float(np.clip(late[run, number], -4, 4))
 
+    kind.setdefault("walls", False)  # the plan shows them all
     build(folder, runs=runs, is_true=True, start_s=0.0, late_s=late_s, **kind)
     file = folder / "manifest.json"
     manifest = json.loads(file.read_text())

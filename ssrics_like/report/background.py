@@ -25,7 +25,7 @@ def draw_background(axes: Axes, results: Results, frame: Frame, *, strength: flo
     """Draw what lies under the map of the run that is shown."""
     if results.building is not None:
         draw_plan(axes, results.building.grid, frame, strength=strength)
-    # In simulation it holds something only where there is more than the plan: furniture, doors.
+    # In simulation these are furniture and doors that the plan does not show.
     draw_walls(axes, results.pictures.outline, frame, strength=strength)
 
 

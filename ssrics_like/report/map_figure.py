@@ -31,6 +31,7 @@ MARGINS_PT = (26.0, 6.0, 28.0, 24.0)  # left, right, bottom, top
 HEIGHTS_PT = (230.0, 640.0)
 LEGEND_ROW_PT = 12.5
 PATH_PARTS = 48
+CARRIED_M, CARRIED_M_S = 1.0, 20.0  # no robot indoors goes farther and faster than these
 OTHERS = ("recognised", "unsure", "dismissed", "overwritten")
 """Decisions that make no new landmark."""
 
@@ -85,6 +86,8 @@ def _caption(results: Results, *, hint: bool) -> str:
         if results.building
         else "Grey: where laser beams ended, drawn from the scans."
     )
+    if results.building and len(results.pictures.outline.x):
+        ground += " Grey: furniture and doors that it does not show."
     rings = (
         "; rings are reflexes at which one was recognised again"
         if run.decided["recognised"]
@@ -118,12 +121,15 @@ def draw_path(
     from matplotlib.collections import LineCollection
     from matplotlib.colors import LinearSegmentedColormap
 
-    points = _thinned(path[:, 1:], 0.6 / frame.points_per_m)
-    if len(points) <= 1:
+    jumps = _jumps(path)
+    keep = _thinned(path[:, 1:], 0.6 / frame.points_per_m, jumps)
+    if len(keep) <= 1:
         return
     colours = LinearSegmentedColormap.from_list("time", [style.PATH_FROM, style.PATH_TO])
-    cuts = np.unique(np.linspace(0, len(points) - 1, parts + 1).astype(np.int64))
-    lines = [points[a : b + 1] for a, b in itertools.pairwise(cuts)]
+    points, landings = path[keep, 1:], np.flatnonzero(np.isin(keep, jumps))
+    cuts = np.unique([*np.linspace(0, len(points) - 1, parts + 1).astype(np.int64), *landings])
+    # Nothing is drawn where the robot was carried: a part ends at the point before.
+    lines = [points[a : b + (b not in landings)] for a, b in itertools.pairwise(cuts)]
     shades = colours(np.linspace(0, 1, len(lines)))
     axes.add_collection(
         LineCollection(lines, colors=shades, linewidths=width, capstyle="round", zorder=2),
@@ -131,17 +137,24 @@ def draw_path(
     )
 
 
-def _thinned(points: NDArray[np.float64], step_m: float) -> NDArray[np.float64]:
-    """Leave out points that lie within a step of the last one kept; the ends stay."""
-    keep = [0] if len(points) else []
+def _jumps(path: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return indices of poses that the robot cannot have driven to from the pose before."""
+    steps_m = np.hypot(*np.diff(path[:, 1:], axis=0).T)
+    return 1 + np.flatnonzero(steps_m > np.maximum(CARRIED_M_S * np.diff(path[:, 0]), CARRIED_M))
+
+
+def _thinned(
+    points: NDArray[np.float64], step_m: float, jumps: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Return indices of points a step apart at least; the ends, and those at jumps, stay."""
+    stay = {0, len(points) - 1, *jumps.tolist(), *(jumps - 1).tolist()} if len(points) else set()
+    keep: list[int] = []
     for i, (x, y) in enumerate(points.tolist()):
-        last = points[keep[-1]]
-        if abs(x - last[0]) >= step_m or abs(y - last[1]) >= step_m:
+        last = points[keep[-1]] if keep else None
+        far = last is None or abs(x - last[0]) >= step_m or abs(y - last[1]) >= step_m
+        if far or i in stay:
             keep.append(i)
-    if len(points) and keep[-1] != len(points) - 1:
-        keep.append(len(points) - 1)
-    chosen: NDArray[np.float64] = points[keep]
-    return chosen
+    return np.array(keep, np.int64)
 
 
 def _draw_ends(axes: Axes, path: NDArray[np.float64], frame: Frame, room: Room) -> None:

@@ -39,14 +39,24 @@ class Recorder:
         Number of the run.
     start_s : float
         Time of the first observation: zero of the engine's clock.
-    drawn_to_m : float
-        Readings up to here are drawn as the building's outline; 0 draws none.
+    range_cap_m : float
+        Readings from here on are not drawn.
+    outline : dict, optional
+        What to draw of the building besides its map, as `Outline.as_data`, where it is known; else
+        it is made from where beams end.
     trace : bool
         Whether the modules' events are written.
     """
 
     def __init__(
-        self, folder: Path, run: int, start_s: float, drawn_to_m: float, *, trace: bool = True
+        self,
+        folder: Path,
+        run: int,
+        start_s: float,
+        range_cap_m: float,
+        *,
+        outline: dict[str, Any] | None = None,
+        trace: bool = True,
     ) -> None:
         self.folder = folder
         self.run = run
@@ -59,8 +69,7 @@ class Recorder:
         self._previous: Observation | None = None
         self._written_s = -math.inf
         self._novelty = Series()
-        self._outline = Outline(drawn_to_m)
-        self._drawing = drawn_to_m > 0.0
+        self._outline = Outline(range_cap_m) if outline is None else outline
         self._names = ["decisions.csv", "path.csv", *(["trace.jsonl"] if trace else [])]
         self._files: dict[str, TextIO] = {}
 
@@ -95,7 +104,7 @@ class Recorder:
             self._files["path.csv"].write(csv_line(tables.path_row(self.run, observation)))
         if novelty is not None:
             self._novelty.append(observation.t_s, novelty)
-        if self._drawing:
+        if isinstance(self._outline, Outline):
             self._outline.add(observation)
 
     def decided_all(self, decisions: list[Decision]) -> None:
@@ -166,6 +175,7 @@ class Recorder:
         """Collect what the report draws and no table holds."""
         memory = model.declarative
         gradient = model.perception.profile.gradient
+        drawn = self._outline
         last_s = self.end_s - self.start_s
         last_s = min(max(last_s, model.engine.now_s), last_s + SETTLING_S)
         times = np.linspace(0.0, last_s, ACTIVATION_POINTS)
@@ -174,7 +184,7 @@ class Recorder:
         column = {name: i for i, name in enumerate(memory.names)}
         landmarks = [node.id for node in model.topological.nodes if node.id in column]
         return {
-            "outline": self._outline.as_data(),
+            "outline": drawn.as_data() if isinstance(drawn, Outline) else drawn,
             "novelty": self._novelty.as_data(),
             "histograms": {
                 "novel": _histogram(model.perception.example_novel, gradient),

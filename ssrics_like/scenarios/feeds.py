@@ -31,12 +31,12 @@ class Feed(Protocol):
     ----------
     frame : str
         Frame of the poses.
-    shows_more_than_the_map : bool
-        Whether what the laser meets is worth drawing: there is no map, or it does not show all.
+    outline : dict or None
+        What to draw of the building besides its map; None if it has no map.
     """
 
     frame: str
-    shows_more_than_the_map: bool
+    outline: dict[str, Any] | None
 
     def __iter__(self) -> Iterator[Observation]:
         """Return the observations in order of time."""
@@ -63,7 +63,7 @@ class LogFeed:
 
     def __init__(self, source: LogSource) -> None:
         self.frame = source.frame
-        self.shows_more_than_the_map = True
+        self.outline: dict[str, Any] | None = None
         self._source = source
 
     def __iter__(self) -> Iterator[Observation]:
@@ -109,7 +109,7 @@ class DriveFeed:
             grid = furnish(
                 grid, rng, world.furniture.pieces, _kept_clear(place), place.robot.radius_m
             )
-        self.shows_more_than_the_map = grid is not place.building.grid or bool(place.doors)
+        self.outline: dict[str, Any] | None = _added(place, grid)
         self._exploring = any(leg.explore for leg in world.journey)
         self.simulation = Simulation(
             grid,
@@ -208,6 +208,16 @@ def _leg(leg: LegSettings, plan: GridMap) -> Leg:
     ]
     names = [f"waypoint {i} [{w[0]:g}, {w[1]:g}]" for i, w in enumerate(leg.waypoints, 1)]
     return Route(waypoints, names, leg.repeat, mapped_solid(plan, mapped_cell_m(plan)))
+
+
+def _added(place: Place, grid: GridMap) -> dict[str, Any]:
+    """Return the cells of furniture and closed doors that the map does not show, in its frame."""
+    added = grid.solid & ~place.building.grid.solid
+    for door in place.doors:
+        added |= door.leaf
+    middles = (np.argwhere(added)[:, ::-1] + 0.5) * grid.cell_m
+    cells = np.floor(grid.points_in_map(middles) / grid.cell_m).astype(np.int64)
+    return {"cell_m": grid.cell_m, "x": cells[:, 0].tolist(), "y": cells[:, 1].tolist()}
 
 
 def _kept_clear(place: Place) -> list[list[float]]:

@@ -87,9 +87,14 @@ def _through(
     seed = int(np.random.SeedSequence([resolved.scenario.seed, run]).generate_state(1)[0])
     rest = iter(observations)
     first = next(rest)  # a source without any scan has raised already
-    drawn_to_m = resolved.perception.range_cap_m if feed.shows_more_than_the_map else 0.0
-    trace = resolved.scenario.trace
-    with Recorder(part.folder, run, first.t_s, drawn_to_m, trace=trace) as recorder:
+    with Recorder(
+        part.folder,
+        run,
+        first.t_s,
+        resolved.perception.range_cap_m,
+        outline=feed.outline,
+        trace=resolved.scenario.trace,
+    ) as recorder:
         model = CognitiveModel(
             resolved.perception,
             resolved.productions,

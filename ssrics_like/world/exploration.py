@@ -30,6 +30,7 @@ TRIES = 2  # a frontier that was gone to in vain so often is left
 SET_ASIDE_M = 0.5  # what is left, around where the robot looked
 HOLD_S = 0.5  # between choices, or the robot could waver
 CHECK_S = 0.5  # between looks at whether the way is still open
+FORGETS = 3  # how often it looks again behind what has come to stand in the way
 LOOKS = 2  # scans taken at a frontier before it is set aside
 
 
@@ -45,6 +46,7 @@ class Exploration:
         self._chosen_s = 0.0
         self._checked_s = 0.0
         self._looks = 0
+        self._forgets = 0
 
     def begin(self, navigator: Navigator, t_s: float) -> None:
         """Make room for planning."""
@@ -85,6 +87,14 @@ class Exploration:
         return self._choose(navigator, t_s)
 
     def _choose(self, navigator: Navigator, t_s: float) -> Errand | None:
+        """Plan the way to the nearest frontier; if there is none, past what may have gone again."""
+        errand = self._nearest(navigator, t_s)
+        while errand is None and self._forgets < FORGETS and navigator.explored.forget_moved():
+            self._forgets += 1
+            errand = self._nearest(navigator, t_s)
+        return errand
+
+    def _nearest(self, navigator: Navigator, t_s: float) -> Errand | None:
         """Plan the way to the nearest frontier, those never tried before first."""
         grid, cell_m = navigator.explored, navigator.cell_m
         least, peek = round(LEAST_M / cell_m), round(PEEK_M / cell_m)

@@ -48,6 +48,7 @@ class OccupancyGrid:
     def __init__(self, shape: tuple[int, int], cell_m: float, radius_m: float) -> None:
         self.cell_m = cell_m
         self.evidence = np.zeros(shape, np.int8)
+        self._history = np.zeros(shape, np.uint8)
         self._counts = np.zeros((3, *shape), np.int16)
         self._discs = _offsets(
             [radius_m / cell_m, (radius_m + SQUEEZE_M) / cell_m, (radius_m + BERTH_M) / cell_m]
@@ -56,7 +57,7 @@ class OccupancyGrid:
     def take(self, scan: LaserScan, pose: Pose, directions: NDArray[np.float64]) -> int:
         """Take a scan from a pose in the grid frame; return how many cells became known."""
         new: int = occupancy_kernels.take_scan(
-            self.evidence, self._counts, self._discs, self.cell_m,
+            self.evidence, self._history, self._counts, self._discs, self.cell_m,
             (pose.x_m, pose.y_m, pose.theta_rad), directions, scan.ranges_m, REACH_M,
         )  # fmt: skip
         return new
@@ -66,17 +67,31 @@ class OccupancyGrid:
         row, column = int(y_m / self.cell_m), int(x_m / self.cell_m)
         rows, columns = self.evidence.shape
         if 0 <= row < rows and 0 <= column < columns and self.evidence[row, column]:
-            occupancy_kernels.add_evidence(
-                self.evidence, self._counts, self._discs, row, column, 2 * occupancy_kernels.MOST
-            )
+            self._add(row, column, 2 * occupancy_kernels.MOST)
+
+    def _add(self, row: int, column: int, weight: int) -> None:
+        """Add evidence to a single cell."""
+        occupancy_kernels.add_evidence(
+            self.evidence, self._history, self._counts, self._discs, row, column, weight
+        )
+
+    def forget_moved(self) -> int:
+        """Take what has come to stand where it was free for gone; return how many cells that is.
+
+        A person may have walked on, a door may be open again.
+        """
+        cells = np.argwhere(
+            (self._history == occupancy_kernels.MOVED) & (self.evidence > 0)
+        ).tolist()
+        for row, column in cells:
+            self._add(row, column, -int(self.evidence[row, column]) - 1)
+        return len(cells)
 
     def know(self, solid: NDArray[np.bool_]) -> None:
         """Take a floor plan for granted until scans say otherwise."""
         most = occupancy_kernels.MOST
-        for row, column in np.argwhere(solid):
-            occupancy_kernels.add_evidence(
-                self.evidence, self._counts, self._discs, int(row), int(column), most
-            )
+        for row, column in np.argwhere(solid).tolist():
+            self._add(row, column, most)
         self.evidence[~solid] = -most
 
     def is_open(self, way: NDArray[np.float64], at: int) -> bool:

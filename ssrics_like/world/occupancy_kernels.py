@@ -15,6 +15,8 @@ HIT, MISS = 4, 2
 MOST = 30
 """Evidence is added up to here and no farther, so that a changed world is believed soon."""
 
+CLEAR, MOVED = 1, 2
+
 EDGE = 0.5
 """Cells by which a reading is taken to reach into what it met, so that noise does not thicken walls."""  # noqa: E501
 
@@ -42,6 +44,7 @@ def _recount(
 @compiled
 def add_evidence(
     evidence: NDArray[np.int8],
+    history: NDArray[np.uint8],
     counts: NDArray[np.int16],
     discs: NDArray[np.int32],
     row: int,
@@ -50,15 +53,20 @@ def add_evidence(
 ) -> int:
     """Add evidence to one cell, positive for occupied; return 1 if it was unknown before.
 
-    Zero means that a cell was never seen, so evidence never returns there.
+    Zero means that a cell was never seen, so evidence never returns there. In `history` it is
+    noted that a cell was surely free once, and that something has MOVED in since and may go again.
     """
     before = evidence[row, column]
     after = min(max(before + weight, -MOST), MOST)
     if after == 0:
         after = 1 if weight > 0 else -1
     evidence[row, column] = after
+    if after == -MOST:
+        history[row, column] = CLEAR
     if before <= 0 < after:
         _recount(counts, discs, row, column, 1)
+        if history[row, column] == CLEAR:
+            history[row, column] = MOVED
     elif after < 0 < before:
         _recount(counts, discs, row, column, -1)
     return 1 if before == 0 else 0
@@ -67,6 +75,7 @@ def add_evidence(
 @compiled
 def _clear_ray(
     evidence: NDArray[np.int8],
+    history: NDArray[np.uint8],
     counts: NDArray[np.int16],
     discs: NDArray[np.int32],
     start: tuple[float, float],
@@ -90,7 +99,7 @@ def _clear_ray(
     new = 0
     while 0 <= row < rows and 0 <= column < columns:
         if evidence[row, column] > -MOST:
-            new += add_evidence(evidence, counts, discs, row, column, -MISS)
+            new += add_evidence(evidence, history, counts, discs, row, column, -MISS)
         if min(tx, ty) > length:
             break
         if tx < ty:
@@ -120,6 +129,7 @@ def _silent(ranges_m: NDArray[np.float64], k: int) -> bool:
 @compiled
 def take_scan(
     evidence: NDArray[np.int8],
+    history: NDArray[np.uint8],
     counts: NDArray[np.int16],
     discs: NDArray[np.int32],
     cell_m: float,
@@ -149,7 +159,7 @@ def take_scan(
             before = -1.0
             continue
         free = min(r / cell_m - EDGE, reach)
-        new += _clear_ray(evidence, counts, discs, (px, py), (dx, dy), 0.0, free)
+        new += _clear_ray(evidence, history, counts, discs, (px, py), (dx, dy), 0.0, free)
         if before > 0.0:
             spread = math.hypot(dx - bx, dy - by)
             shared = min(free, before)
@@ -160,7 +170,14 @@ def take_scan(
                 length = math.hypot(mx, my)
                 ray = (mx / length, my / length)
                 new += _clear_ray(
-                    evidence, counts, discs, (px, py), ray, min(0.7 / spread, shared), shared
+                    evidence,
+                    history,
+                    counts,
+                    discs,
+                    (px, py),
+                    ray,
+                    min(0.7 / spread, shared),
+                    shared,
                 )
         before, bx, by = free, dx, dy
     for k in range(n):
@@ -172,7 +189,7 @@ def take_scan(
         column = math.floor(px + far * (cos * c - sin * s))
         row = math.floor(py + far * (sin * c + cos * s))
         if 0 <= row < rows and 0 <= column < columns:
-            new += add_evidence(evidence, counts, discs, row, column, HIT)
+            new += add_evidence(evidence, history, counts, discs, row, column, HIT)
     return new
 
 

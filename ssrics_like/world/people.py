@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy import ndimage
 
 from ssrics_like.world import way_kernels
 from ssrics_like.world.occupancy import BLOCKED, OPEN, TIGHT
@@ -67,15 +68,16 @@ class People:
         self._costs[clearance <= 0.0] = 0
         self._distance = np.empty(clearance.shape, np.int32)
         self._parent = np.empty(clearance.shape, np.int32)
-        nowhere = np.full(clearance.shape, -1, np.int32)
-        start = int(robot.y_m / cell_m), int(robot.x_m / cell_m)
-        way_kernels.spread(self._costs, nowhere, start, TIGHT, self._distance, self._parent)
-        there = (self._distance < way_kernels.FAR) & (self._costs != BLOCKED)
-        self._places = np.argwhere(there)
+        # A closed door parts the building: everybody stays in the part that he is in.
+        self._parts, count = ndimage.label(clearance > radius_m, structure=np.ones((3, 3)))
+        order = np.argsort(self._parts, axis=None, kind="stable")
+        ends = np.searchsorted(self._parts.ravel()[order], np.arange(count + 2))
+        self._places = [order[ends[i] : ends[i + 1]] for i in range(count + 1)]
         self._ways = [np.empty((0, 2))] * len(self.discs)
-        if len(self._places) and not self.discs[:, :2].any():
+        part = int(self._parts[int(robot.y_m / cell_m), int(robot.x_m / cell_m)])
+        if part and not self.discs[:, :2].any():
             for disc in self.discs:
-                disc[:2] = self._place()
+                disc[:2] = self._place(part)
 
     def walk(self, seconds: float, robot: Pose, robot_radius_m: float) -> None:
         """Let everybody walk for a moment."""
@@ -103,17 +105,21 @@ class People:
                 self._waited_s[i] = 0.0
                 self._ways[i] = self._new_way(disc)
 
-    def _place(self) -> tuple[float, float]:
-        row, column = self._places[self._rng.integers(len(self._places))]
+    def _place(self, part: int) -> tuple[float, float]:
+        """Return a random place in a part of the building."""
+        cell = int(self._places[part][self._rng.integers(len(self._places[part]))])
+        row, column = divmod(cell, self._parts.shape[1])
         return (column + 0.5) * self._cell_m, (row + 0.5) * self._cell_m
 
     def _new_way(self, disc: NDArray[np.float64]) -> NDArray[np.float64]:
-        if not len(self._places):
+        """Return a way to a random place, empty for somebody who is hemmed in."""
+        start = int(disc[1] / self._cell_m), int(disc[0] / self._cell_m)
+        part = int(self._parts[start])
+        if not part:
             return np.empty((0, 2))
-        x, y = self._place()
+        x, y = self._place(part)
         goals = np.full(self._costs.shape, -1, np.int32)
         goals[int(y / self._cell_m), int(x / self._cell_m)] = 0
-        start = int(disc[1] / self._cell_m), int(disc[0] / self._cell_m)
         goal = way_kernels.spread(self._costs, goals, start, TIGHT, self._distance, self._parent)
         if goal < 0:
             return np.empty((0, 2))
