@@ -2,7 +2,7 @@
 # make test   sets up what the tests need, runs them
 # make check  lint, types, and the built wheel used outside the checkout
 # make bench  the figures of docs/benchmarks.md
-# make pictures  the pictures of the README, from the main job
+# make pictures  the pictures of the documentation, from the main job
 
 PYTHON ?= python3
 VENV := .venv
@@ -12,7 +12,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constr
 .PHONY: run test check lint types wheel bench pictures clean
 
 run: $(VENV)/.installed
-	$(BIN)/ssrics run demo --out out/demo
+	$(BIN)/ssrics run complex --out out/complex
 
 test: $(VENV)/.tests
 	$(BIN)/python -m pytest -q
@@ -33,7 +33,8 @@ bench: $(VENV)/.tests
 	for script in benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
 
 pictures: run
-	cp out/demo/figures/map.svg docs/images/demo-map.svg
+	cp out/complex/figures/map.svg docs/images/complex-map.svg
+	cp out/complex/figures/locations.svg docs/images/complex-locations.svg
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("ssrics-like needs Python 3.11 or newer, this is " + sys.version.split()[0] if sys.version_info < (3, 11) else 0)'

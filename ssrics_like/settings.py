@@ -182,9 +182,9 @@ def validated(kind: type[Settings], document: Document) -> Settings:
             for key, text in explain(kind, e, document.data)
             if key not in document.unread
         ]
-        raise SettingsError("\n".join(_by_place(problems))) from None
+        raise SettingsError("\n".join(in_order(problems))) from None
     if problems:
-        raise SettingsError("\n".join(_by_place(problems)))
+        raise SettingsError("\n".join(in_order(problems)))
     return settings
 
 
@@ -201,7 +201,10 @@ def explain(kind: type[BaseModel], error: ValidationError, data: Any) -> list[tu
             len(at) > depth and at[:depth] == item["loc"] for at in places
         ):
             continue  # the items are there, but they have complaints of their own
-        if item["type"] == "extra_forbidden":
+        if item["type"] == "too_short":
+            least = item["ctx"]["min_length"]
+            lines.append((where, f"{key}: {_shown(item['input'])}: expected {least} or more"))
+        elif item["type"] == "extra_forbidden":
             known = fields_at(kind, where[:-1])
             lines.append((where, f"unknown key '{key}'{_hint(str(where[-1]), known)}"))
         elif item["loc"][-1:] == ("[key]",):  # of a mapping whose keys are fixed words
@@ -265,7 +268,9 @@ def _hint(word: str, known: Iterable[str]) -> str:
     return nearest(word, names) or (f"; known keys: {', '.join(names)}" if names else "")
 
 
-def _by_place(problems: list[str]) -> list[str]:
+def in_order(problems: list[str]) -> list[str]:
+    """Return problems in order of the lines and columns that they name."""
+
     def place(line: str) -> tuple[int, int]:
         parts = line.split(":", 3)
         try:

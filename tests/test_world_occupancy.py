@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ssrics_like.perception.observation import LaserScan, Pose
-from ssrics_like.world import occupancy_kernels
 from ssrics_like.world.laser import Laser, leaps
 from ssrics_like.world.occupancy import (
     BERTH_M,
@@ -132,16 +131,33 @@ def test_evidence_never_returns_to_zero_and_counts_equal_a_recount(rows, columns
     for row, column, weight in changes:
         if row >= rows or column >= columns:
             continue
-        was_new = occupancy_kernels.add_evidence(
-            own.evidence, own._counts, own._discs, row, column, weight
-        )
-        assert was_new == ((row, column) not in sums)
+        own._add(row, column, weight)
         before = sums.get((row, column), 0)
         after = max(-MOST, min(MOST, before + weight))
         sums[row, column] = after or (1 if weight > 0 else -1)
         assert own.evidence[row, column] == sums[row, column]
     assert np.count_nonzero(own.evidence) == len(sums)
     assert np.array_equal(own._counts, recounted(own.evidence, 0.1))
+
+
+def test_what_has_come_to_stand_where_it_was_free_can_be_forgotten_and_walls_cannot():
+    grid, pose = room(6.0, 4.0), Pose(1.0, 2.0, 0.0)
+    own = None
+    for _ in range(20):
+        own = mapped(grid, pose, own=own)
+    walls = own.evidence > 0
+    for _ in range(20):
+        mapped(grid, pose, people=np.array([[3.0, 2.0, 0.25]]), own=own)
+    came = (own.evidence > 0) & ~walls
+    assert came.sum() >= 4
+    assert own.forget_moved() == came.sum()
+    assert np.array_equal(own.evidence > 0, walls)
+    assert (own.evidence[came] < 0).all()
+    assert np.array_equal(own._counts, recounted(own.evidence, CELL_M))
+    assert own.forget_moved() == 0
+    # It is taken for free only until it is seen again.
+    mapped(grid, pose, people=np.array([[3.0, 2.0, 0.25]]), own=own)
+    assert own.evidence[40, 55] > 0
 
 
 def test_counts_equal_a_recount_after_a_drive_with_faults():

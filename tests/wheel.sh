@@ -15,8 +15,9 @@ trap 'rm -rf "$place"' EXIT
 cd "$place"
 venv/bin/ssrics --version
 venv/bin/ssrics list
-venv/bin/ssrics run demo --out results
-for name in manifest.json decisions.csv landmarks.csv path.csv report.html; do
+venv/bin/ssrics run simple --out results
+venv/bin/ssrics run demo --out demo --quiet
+for name in manifest.json decisions.csv landmarks.csv path.csv map/map.png scores.json report.html; do
     test -s "results/$name" || { echo "wheel: results/$name is missing" >&2; exit 1; }
 done
 echo "wheel: $(basename dist/*.whl) works outside the checkout"

@@ -52,7 +52,9 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
 
 def _kind(path: Path) -> str:
     """Tell a YAML file's kind: the one that knows most of its keys."""
-    keys = set(settings.read_document(path).data)
+    data = settings.read_document(path).data
+    # `source` is a log's in a scenario, and a line of text everywhere else.
+    keys = {key for key in data if key != "source" or isinstance(data[key], dict)}
     known = {
         "rule set": {"rules", "chunk_types", "goal", "harvest"},
         "scenario": set(Scenario.model_fields) - {"title"},

@@ -88,7 +88,7 @@ def place_of(
     start : mapping
         Folder that the paths ``world.map`` and ``world.locations`` start from.
     where : callable
-        Gives the place of a key in the scenario's file, or nothing.
+        Gives the place of a key in the scenario's file, ``--set``, or nothing.
 
     Raises
     ------
@@ -103,7 +103,8 @@ def place_of(
 
     def complain(key: Key, text: str) -> None:
         place, dotted = where(key), ".".join(str(part) for part in key)
-        problems.append(f"{place}: {dotted}: {text}" if place else f"{dotted}: {text}")
+        before = "--set " if place == "--set" else f"{place}: " if place else ""
+        problems.append(f"{before}{dotted}: {text}")
 
     fits = clearance(grid) > robot.radius_m
     body = f"the robot (radius {robot.radius_m:g} m)"

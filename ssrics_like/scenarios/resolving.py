@@ -156,7 +156,14 @@ def resolve(
     if scenario.world is not None:
         robot = load_robot(at(start["world.robot"], scenario.world.robot))
         robot = settings.override(robot, changes["robot"], "robot.")
-        place = place_of(scenario.world, robot, start, where or _unplaced)
+        typed_keys = [tuple(key.split(".")) for key in own]
+
+        def said_at(key: settings.Key) -> str:
+            if any(key[: len(each)] == each for each in typed_keys):
+                return "--set"
+            return where(key) if where else ""
+
+        place = place_of(scenario.world, robot, start, said_at)
     return Resolved(
         scenario=scenario,
         log=start["source.log"] / scenario.source.log if scenario.source else None,
@@ -173,7 +180,3 @@ def _unknown(key: str, head: str, typed: dict[str, Any], scenario: Scenario) -> 
     known = [*fields, *(f"{module}." for module in heads)]
     hint = nearest(head, (*fields, *heads))
     return SettingsError(f"--set {key}: unknown key '{head}'{hint}; known: {choices(known)}")
-
-
-def _unplaced(_key: settings.Key) -> str:
-    return ""

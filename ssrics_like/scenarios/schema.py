@@ -150,30 +150,53 @@ def read_scenario(path: Path) -> tuple[Scenario, settings.Document]:
         With one line for each thing that is wrong.
     """
     document = settings.read_document(path)
-    scenario = settings.validated(Scenario, document)
-    problems = []
-    entries: dict[tuple[str, ...], tuple[str, str]] = {
-        (module,): (module, getattr(scenario, module)) for module in MODULES
-    }
-    files: dict[tuple[str, ...], str | None] = {("humans",): scenario.humans}
-    if scenario.source is not None:
-        files["source", "log"] = scenario.source.log
-    if scenario.world is not None:
-        entries["world", "robot"] = ("robots", scenario.world.robot)
-        files["world", "map"] = scenario.world.map
-        files["world", "locations"] = scenario.world.locations
-    for key, (kind, name) in entries.items():
-        try:
-            library.find(kind, at(path.parent, name))
-        except LibraryError as e:
-            problems.append(f"{document.where(key)}: {'.'.join(key)}: {e}")
-    for key, file in files.items():
-        if file is not None and not (path.parent / file).is_file():
-            said = "is a folder" if (path.parent / file).is_dir() else "no such file"
-            problems.append(f"{document.where(key)}: {'.'.join(key)}: {path.parent / file}: {said}")
+    problems = _missing_files(document)
+    try:
+        scenario = settings.validated(Scenario, document)
+    except SettingsError as e:
+        problems += str(e).splitlines()
     if problems:
-        raise SettingsError("\n".join(problems))
+        raise SettingsError("\n".join(settings.in_order(problems)))
     return scenario, document
+
+
+ENTRIES: dict[settings.Key, str] = {
+    **{(module,): module for module in MODULES},
+    ("world", "robot"): "robots",
+}
+FILES: tuple[settings.Key, ...] = (
+    ("source", "log"),
+    ("world", "map"),
+    ("world", "locations"),
+    ("humans",),
+)
+
+
+def _missing_files(document: settings.Document) -> list[str]:
+    """Complain of names that lead nowhere, whatever else is wrong with the file."""
+    problems = []
+    base = document.path.parent
+    for key, kind in ENTRIES.items():
+        name = _value(document.data, key)
+        try:
+            if isinstance(name, str):
+                library.find(kind, at(base, name))
+        except LibraryError as e:
+            problems.append(f"{document.where(key)}: {'.'.join(map(str, key))}: {e}")
+    for key in FILES:
+        name = _value(document.data, key)
+        if isinstance(name, str) and not (base / name).is_file():
+            said = "is a folder" if (base / name).is_dir() else "no such file"
+            dotted = ".".join(map(str, key))
+            problems.append(f"{document.where(key)}: {dotted}: {base / name}: {said}")
+    return problems
+
+
+def _value(data: Any, key: settings.Key) -> Any:
+    """Return what stands at a key, or None."""
+    for part in key:
+        data = data.get(part) if isinstance(data, dict) else None
+    return data
 
 
 def make_scenario(data: dict[str, Any]) -> Scenario:
