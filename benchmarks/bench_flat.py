@@ -13,8 +13,8 @@ import time
 from pathlib import Path
 
 from ssrics_like.library import folder
-from ssrics_like.scenarios.runner import run_scenario
 from ssrics_like.scenarios.resolving import resolve
+from ssrics_like.scenarios.runner import run_scenario
 from ssrics_like.scenarios.schema import make_scenario
 
 STEPS = 10

@@ -21,9 +21,9 @@ from ssrics_like.perception.reflex import Reflex
 from ssrics_like.productions.engine import Engine
 from ssrics_like.productions.interface import BufferChunk
 from ssrics_like.productions.rulebook import load_rulebook
-from ssrics_like.scenarios.runner import run_scenario
 from ssrics_like.scenarios.modules import load_memory
 from ssrics_like.scenarios.resolving import resolve
+from ssrics_like.scenarios.runner import run_scenario
 from ssrics_like.scenarios.schema import make_scenario
 
 RULES = Path(__file__).parents[1] / "tests" / "rules"

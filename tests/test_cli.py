@@ -199,9 +199,9 @@ def test_check_finds_damaged_results_and_scenarios_without_their_files(capsys, t
     status, _, complained = run(capsys, "check", scenario)
     assert status == 1
     assert [line.split(": ")[1:3] for line in complained.splitlines()] == [
+        [f"{scenario}:1:10", "source.log"],
         [f"{scenario}:2:1", "perception"],
         [f"{scenario}:3:1", "memory"],
-        [f"{scenario}:1:10", "source.log"],
     ]
     assert "did you mean 'report'?" in complained
 

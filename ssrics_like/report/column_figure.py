@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssrics_like.report import style
-from ssrics_like.report.background import extent_of
+from ssrics_like.report.background import draw_background, extent_of
 from ssrics_like.report.drawing import HALO, Drawing
 from ssrics_like.report.frames import Frame, frame_around, kept_apart, round_length
 from ssrics_like.report.labels import Room, legend_grid
 from ssrics_like.report.map_figure import draw_path
 from ssrics_like.report.place_markers import PlaceStyle, draw_places, places_legend
-from ssrics_like.report.plan import draw_plan
 from ssrics_like.report.records import Results
 from ssrics_like.results.records import MARKS, Run
 
@@ -56,7 +55,7 @@ def draw_column_map(results: Results) -> Drawing | None:
     axes = figure.add_axes(
         (0.5 / box[0], below / box[1], frame.width_pt / box[0], frame.height_pt / box[1])
     )
-    draw_plan(axes, results.building.grid, frame)
+    draw_background(axes, results, frame)
     axes.set_xlim(frame.left, frame.right)
     axes.set_ylim(frame.bottom, frame.top)
     axes.set_xticks([])

@@ -98,8 +98,12 @@ def _clear_ray(
     ty = (row + 1 - py if dy > 0.0 else py - row) * over_y if dy != 0.0 else math.inf
     new = 0
     while 0 <= row < rows and 0 <= column < columns:
-        if evidence[row, column] > -MOST:
+        found = evidence[row, column]
+        if found > 0 or -MOST < found <= MISS - MOST:
             new += add_evidence(evidence, history, counts, discs, row, column, -MISS)
+        elif found > -MOST:  # most often: nothing else depends on it
+            evidence[row, column] = found - MISS
+            new += found == 0
         if min(tx, ty) > length:
             break
         if tx < ty:

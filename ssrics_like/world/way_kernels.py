@@ -22,28 +22,6 @@ STRAIGHT_MOST = 120  # places of a way that may be left out at once
 
 
 @compiled
-def _put(bucket: int, cell: int, heads: NDArray[np.int32], links: NDArray[np.int32]) -> None:
-    """Put a cell into a bucket: a doubly linked list, row 0 of `links` leading on, row 1 back."""
-    first = heads[bucket]
-    links[0, cell], links[1, cell] = first, -1
-    if first >= 0:
-        links[1, first] = cell
-    heads[bucket] = cell
-
-
-@compiled
-def _take_out(bucket: int, cell: int, heads: NDArray[np.int32], links: NDArray[np.int32]) -> None:
-    """Take a cell out of the bucket that it is in."""
-    after, before = links[0, cell], links[1, cell]
-    if before >= 0:
-        links[0, before] = after
-    else:
-        heads[bucket] = after
-    if after >= 0:
-        links[1, after] = before
-
-
-@compiled
 def spread(
     costs: NDArray[np.uint8],
     goals: NDArray[np.int32],
@@ -80,20 +58,26 @@ def spread(
     rows, columns = costs.shape
     distance[:] = FAR
     heads = np.full(BUCKETS, -1, np.int32)
-    links = np.empty((2, rows * columns), np.int32)
+    # An entry that a cheaper way has overtaken stays in its bucket and is passed over when met.
+    cell_of = np.empty(8 * rows * columns + 1, np.int32)
+    after = np.empty(8 * rows * columns + 1, np.int32)
     reached, before = distance.reshape(-1), parent.reshape(-1)
     cost_of, goal_of = costs.reshape(-1), goals.reshape(-1)
     origin = start[0] * columns + start[1]
     reached[origin], before[origin] = 0, -1
-    _put(0, origin, heads, links)
-    waiting, level = 1, 0
+    cell_of[0], after[0], heads[0] = origin, -1, 0
+    used, unused, waiting, level = 1, -1, 1, 0
     while waiting > 0:
-        cell = heads[level % BUCKETS]
-        if cell < 0:
+        entry = heads[level % BUCKETS]
+        if entry < 0:
             level += 1
             continue
-        _take_out(level % BUCKETS, cell, heads, links)
+        heads[level % BUCKETS] = after[entry]
+        after[entry], unused = unused, entry
         waiting -= 1
+        cell = cell_of[entry]
+        if reached[cell] != level:
+            continue
         row, column = cell // columns, cell % columns
         # Out of where it touches something the robot may go, but only a step or two.
         escaping = (
@@ -113,11 +97,16 @@ def spread(
                     cost = OUT_OF_BLOCKED
                 there = level + (DIAGONAL if r != row and c != column else STRAIGHT) * cost
                 if there < reached[other]:
-                    if reached[other] != FAR:  # it waits in another bucket
-                        _take_out(reached[other] % BUCKETS, other, heads, links)
-                        waiting -= 1
                     reached[other], before[other] = there, cell
-                    _put(there % BUCKETS, other, heads, links)
+                    entry = unused
+                    if entry >= 0:
+                        unused = after[entry]
+                    else:
+                        entry = used
+                        used += 1
+                    cell_of[entry] = other
+                    after[entry] = heads[there % BUCKETS]
+                    heads[there % BUCKETS] = entry
                     waiting += 1
     return -1
 
