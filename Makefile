@@ -15,7 +15,7 @@ run: $(VENV)/.installed
 	$(BIN)/ssrics run complex --out out/complex
 
 test: $(VENV)/.tests
-	$(BIN)/python -m pytest -q
+	$(BIN)/python -m pytest -q -n auto
 
 check: lint types wheel
 

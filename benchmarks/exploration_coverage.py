@@ -18,9 +18,9 @@ from scipy import ndimage
 from ssrics_like.maps import load_building
 from ssrics_like.scenarios.modules import load_robot
 from ssrics_like.world.building import Building
+from ssrics_like.world.buildings.generator import generate
+from ssrics_like.world.buildings.plan import build
 from ssrics_like.world.exploration import Exploration
-from ssrics_like.world.generator import generate
-from ssrics_like.world.plan import build
 from ssrics_like.world.reachable import roomiest
 from ssrics_like.world.simulation import Simulation
 

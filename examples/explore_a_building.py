@@ -10,9 +10,9 @@ import numpy as np
 from ssrics_like import CognitiveModel, load_memory, load_perception, load_productions
 from ssrics_like.comparison.matching import match
 from ssrics_like.scenarios.modules import load_robot
+from ssrics_like.world.buildings.generator import BuildingSettings, generate
+from ssrics_like.world.buildings.plan import build
 from ssrics_like.world.exploration import Exploration
-from ssrics_like.world.generator import BuildingSettings, generate
-from ssrics_like.world.plan import build
 from ssrics_like.world.reachable import roomiest
 from ssrics_like.world.simulation import Simulation
 

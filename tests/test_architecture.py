@@ -78,7 +78,7 @@ def test_each_foreign_engine_has_its_own_files():
 
 def test_the_mind_prints_nothing_and_opens_no_files():
     for kind in ("perception", "memory", "world"):
-        for path in (PACKAGE / kind).glob("*.py"):
+        for path in (PACKAGE / kind).rglob("*.py"):
             calls = {
                 node.func.id
                 for node in ast.walk(ast.parse(path.read_text()))

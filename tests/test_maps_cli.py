@@ -9,7 +9,7 @@ from PIL import Image
 from ssrics_like.cli import main
 from ssrics_like.library import folder
 from ssrics_like.maps import load_building, load_plan
-from ssrics_like.world.plan import build
+from ssrics_like.world.buildings.plan import build
 
 MAPS = folder("scenarios") / "maps"
 

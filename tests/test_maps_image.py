@@ -180,6 +180,6 @@ def test_a_damaged_png_gives_a_picture_or_a_map_error(tmp_path_factory, data):
 
 
 def test_the_limit_is_that_of_plans():
-    from ssrics_like.world import plan
+    from ssrics_like.world.buildings import plan
 
     assert module.CELLS_MAX is plan.CELLS_MAX

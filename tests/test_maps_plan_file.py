@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from ssrics_like.errors import MapError
 from ssrics_like.maps import load_plan, save_plan
+from ssrics_like.world.buildings.pieces import Piece
+from ssrics_like.world.buildings.plan import Passage, Plan, Rectangle, Space
 from ssrics_like.world.locations import Location
-from ssrics_like.world.pieces import Piece
-from ssrics_like.world.plan import Passage, Plan, Rectangle, Space
 
 GOOD = """\
 title: Flat
@@ -135,7 +135,7 @@ def test_what_is_no_plan_is_one_clear_line(file):
         ": is a map already drawn, expected a floor plan"
     ]
     assert complaints(file, "size_m: [1, 1]\nspaces: []\n") == [
-        ":2:1: spaces: []: expected Tuple should have at least 1 item after validation, not 0"
+        ":2:1: spaces: []: expected 1 or more"
     ]
 
 

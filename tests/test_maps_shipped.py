@@ -9,8 +9,8 @@ from PIL import Image
 
 from ssrics_like.library import folder
 from ssrics_like.maps import load_building, load_locations, load_plan, save_building
+from ssrics_like.world.buildings.plan import build, draw, window
 from ssrics_like.world.grid import FREE, OCCUPIED
-from ssrics_like.world.plan import build, draw, window
 from ssrics_like.world.reachable import reachable, roomiest, standing
 
 MAPS = folder("scenarios") / "maps"

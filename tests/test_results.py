@@ -22,8 +22,8 @@ from ssrics_like.memory.store import load_topology
 from ssrics_like.results.files import csv_line, number, write_atomically
 from ssrics_like.results.folder import ResultsFolder, read_manifest
 from ssrics_like.results.thinning import Outline, Series
-from ssrics_like.scenarios.runner import run_scenario
 from ssrics_like.scenarios.resolving import resolve
+from ssrics_like.scenarios.runner import run_scenario
 from ssrics_like.scenarios.schema import make_scenario
 
 DEMO = folder("scenarios") / "logs" / "demo.log.gz"

@@ -21,9 +21,9 @@ from ssrics_like.scenarios.schema import Scenario, make_scenario, read_scenario
 from ssrics_like.scenarios.variants import resolve_variants
 from ssrics_like.settings import read_document
 from ssrics_like.world.building import Building
-from ssrics_like.world.generator import BuildingSettings, generate
+from ssrics_like.world.buildings.generator import BuildingSettings, generate
+from ssrics_like.world.buildings.plan import build
 from ssrics_like.world.locations import Location
-from ssrics_like.world.plan import build
 from ssrics_like.world.reachable import clearance, roomiest
 
 # The map lies turned: its x is -2 less the grid's y, its y is 1 and the grid's x.

@@ -8,12 +8,12 @@ from buildings import DOOR, exact_laser, exact_robot, offices, room, simulated, 
 
 from ssrics_like.maps import load_building
 from ssrics_like.scenarios.modules import load_robot
+from ssrics_like.world.buildings.furniture import furnish
+from ssrics_like.world.buildings.generator import BuildingSettings, generate
+from ssrics_like.world.buildings.plan import build
 from ssrics_like.world.disturbances import Crowd, Disturbances, DoorChange, SlipSettings
 from ssrics_like.world.doors import door_leaf
 from ssrics_like.world.exploration import Exploration
-from ssrics_like.world.furniture import furnish
-from ssrics_like.world.generator import BuildingSettings, generate
-from ssrics_like.world.plan import build
 from ssrics_like.world.reachable import roomiest
 
 LASERS = {

@@ -8,10 +8,10 @@ from scipy import ndimage
 
 from ssrics_like.errors import MapError
 from ssrics_like.perception.observation import Pose
-from ssrics_like.world.furniture import SORTS, WEIGHTS, furnish
+from ssrics_like.world.buildings.furniture import SORTS, WEIGHTS, furnish
+from ssrics_like.world.buildings.pieces import Piece, patch
+from ssrics_like.world.buildings.placing import CLEAR_M, Placing
 from ssrics_like.world.grid import FREE, OCCUPIED, GridMap
-from ssrics_like.world.pieces import Piece, patch
-from ssrics_like.world.placing import CLEAR_M, Placing
 from ssrics_like.world.reachable import clearance, reachable, roomiest, standing
 
 RADIUS_M = 0.27

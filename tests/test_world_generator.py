@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from ssrics_like.world.generator import PROMISED_M, BuildingSettings, generate
+from ssrics_like.world.buildings.generator import PROMISED_M, BuildingSettings, generate
+from ssrics_like.world.buildings.hallways import Sizes, lay_out
+from ssrics_like.world.buildings.interior import BODY_M
+from ssrics_like.world.buildings.layout import FEWEST, INNER, SHAPES, Box
+from ssrics_like.world.buildings.plan import CELL_M, Rectangle, draw, window
+from ssrics_like.world.buildings.rooms import shared_out
+from ssrics_like.world.buildings.turning import Turning
 from ssrics_like.world.grid import FREE
-from ssrics_like.world.hallways import Sizes, lay_out
-from ssrics_like.world.interior import BODY_M
-from ssrics_like.world.layout import FEWEST, INNER, SHAPES, Box
-from ssrics_like.world.plan import CELL_M, Rectangle, draw, window
 from ssrics_like.world.reachable import standing
-from ssrics_like.world.rooms import shared_out
-from ssrics_like.world.turning import Turning
 
 SEEDS = range(24)
 

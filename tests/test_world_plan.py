@@ -10,10 +10,10 @@ from pydantic import ValidationError
 from scipy import ndimage
 
 from ssrics_like.errors import MapError
+from ssrics_like.world.buildings.pieces import Piece, patch
+from ssrics_like.world.buildings.plan import Passage, Plan, Rectangle, Space, build, draw, window
 from ssrics_like.world.grid import FREE, OCCUPIED
 from ssrics_like.world.locations import Location
-from ssrics_like.world.pieces import Piece, patch
-from ssrics_like.world.plan import Passage, Plan, Rectangle, Space, build, draw, window
 
 
 def two_rooms(**more):

@@ -30,7 +30,7 @@ def draw(plan: Path, *, out: Out = None, cell: float = 0.05) -> None:
         Side of a cell, metres.
     """
     from ssrics_like.maps import load_plan, save_building
-    from ssrics_like.world.plan import build
+    from ssrics_like.world.buildings.plan import build
 
     _check_cell(cell)
     building = build(load_plan(plan), cell)
@@ -103,8 +103,8 @@ def generate(
     from ssrics_like import settings
     from ssrics_like.errors import MapError
     from ssrics_like.maps import save_building, save_plan
-    from ssrics_like.world import generator
-    from ssrics_like.world.plan import build
+    from ssrics_like.world.buildings import generator
+    from ssrics_like.world.buildings.plan import build
 
     if count < 1 or seed < 0:
         raise MapError("count: expected 1 or more" if count < 1 else "seed: expected 0 or more")
@@ -152,7 +152,7 @@ def show(file: Path, *, out: NeededOut, locations: Path | None = None) -> None:
     from ssrics_like.errors import MapError
     from ssrics_like.maps import is_plan, load_building, load_locations, load_plan
     from ssrics_like.report.building_figure import PICTURES, save_picture
-    from ssrics_like.world.plan import build
+    from ssrics_like.world.buildings.plan import build
 
     if out.suffix.lower() not in PICTURES:
         raise MapError(f"{out}: expected a picture's name ending in {', '.join(PICTURES)}")

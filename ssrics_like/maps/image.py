@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
 from ssrics_like.errors import MapError
-from ssrics_like.world.plan import CELLS_MAX
+from ssrics_like.world.buildings.plan import CELLS_MAX
 
 FORMATS = ("PNG", "PPM", "BMP")
 """As Pillow calls them; PPM stands for PGM and PBM too."""

@@ -15,9 +15,18 @@ from ssrics_like.errors import MapError, SettingsError
 from ssrics_like.maps.map_file import LocationEntry
 from ssrics_like.maps.yaml_text import yaml_text
 from ssrics_like.settings import Document, Key
+from ssrics_like.world.buildings.pieces import Length, Piece
+from ssrics_like.world.buildings.plan import (
+    CELL_M,
+    Passage,
+    Plan,
+    Rectangle,
+    Space,
+    draw,
+    pair,
+    window,
+)
 from ssrics_like.world.grid import FREE
-from ssrics_like.world.pieces import Length, Piece
-from ssrics_like.world.plan import CELL_M, Passage, Plan, Rectangle, Space, draw, pair, window
 
 Size = Annotated[tuple[Length, Length], Field(strict=False), BeforeValidator(pair)]
 LIST = Field(strict=False)  # YAML has lists, not tuples
@@ -33,7 +42,7 @@ class PlanFile(BaseModel):
     size_m : tuple of float
         Width and height.
     spaces, passages, walls, furniture, locations : tuple
-        As `ssrics_like.world.plan.Plan` has them; its places are called locations here.
+        As `ssrics_like.world.buildings.plan.Plan` has them; its places are called locations here.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)

@@ -12,9 +12,9 @@ from ssrics_like.scenarios.place import Place
 from ssrics_like.scenarios.resolving import Resolved
 from ssrics_like.scenarios.world_settings import LegSettings
 from ssrics_like.sources import LogSource, open_log
+from ssrics_like.world.buildings.furniture import furnish
 from ssrics_like.world.disturbances import Crowd, Disturbances, SlipSettings
 from ssrics_like.world.exploration import Exploration
-from ssrics_like.world.furniture import furnish
 from ssrics_like.world.grid import GridMap
 from ssrics_like.world.navigation import Leg
 from ssrics_like.world.routes import Route, Wait

@@ -16,10 +16,10 @@ from ssrics_like.perception.observation import Pose
 from ssrics_like.scenarios.world_settings import WorldSettings
 from ssrics_like.settings import Key
 from ssrics_like.world.building import Building
+from ssrics_like.world.buildings.generator import generate
+from ssrics_like.world.buildings.plan import build
 from ssrics_like.world.disturbances import DoorChange, Kidnap
 from ssrics_like.world.doors import door_leaf
-from ssrics_like.world.generator import generate
-from ssrics_like.world.plan import build
 from ssrics_like.world.reachable import clearance, roomiest, standing
 from ssrics_like.world.robot import RobotProfile
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
-from ssrics_like.world.generator import BuildingSettings
+from ssrics_like.world.buildings.generator import BuildingSettings
 
 Seconds = Annotated[float, Field(ge=0.0)]
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssrics_like.world.layout import Box
+from ssrics_like.world.buildings.layout import Box
 
 
 class Turning(NamedTuple):

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from ssrics_like.world.groups import at_wall, groups, piece
-from ssrics_like.world.pieces import Piece
-from ssrics_like.world.placing import Placing
-from ssrics_like.world.plan import Passage, Plan, Space, draw
+from ssrics_like.world.buildings.groups import at_wall, groups, piece
+from ssrics_like.world.buildings.pieces import Piece
+from ssrics_like.world.buildings.placing import Placing
+from ssrics_like.world.buildings.plan import Passage, Plan, Space, draw
 
 BODY_M = 0.35
 """A disc of this radius still gets everywhere: a little more than the 0.3 m that is promised."""

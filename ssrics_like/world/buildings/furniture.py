@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
 
+from ssrics_like.world.buildings.pieces import Piece, PieceKind
+from ssrics_like.world.buildings.placing import Placing
 from ssrics_like.world.grid import GridMap
-from ssrics_like.world.pieces import Piece, PieceKind
-from ssrics_like.world.placing import Placing
 
 TRIES = 40
 """Places that are tried for a piece before it is left out."""

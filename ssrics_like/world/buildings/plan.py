@@ -15,9 +15,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_valida
 
 from ssrics_like.errors import MapError
 from ssrics_like.world.building import Building
+from ssrics_like.world.buildings.pieces import Coordinate, Length, Piece, patch
 from ssrics_like.world.grid import FREE, OCCUPIED, GridMap
 from ssrics_like.world.locations import Location
-from ssrics_like.world.pieces import Coordinate, Length, Piece, patch
 
 CELL_M = 0.05
 CELLS_MAX = 100_000_000

@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
 
 from ssrics_like.errors import MapError
+from ssrics_like.world.buildings.pieces import Patch, Piece, patch
 from ssrics_like.world.grid import OCCUPIED, GridMap
-from ssrics_like.world.pieces import Patch, Piece, patch
 from ssrics_like.world.reachable import standing
 
 CLEAR_M = 0.9

@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssrics_like.world.pieces import Piece, PieceKind
-from ssrics_like.world.plan import Rectangle
+from ssrics_like.world.buildings.pieces import Piece, PieceKind
+from ssrics_like.world.buildings.plan import Rectangle
 
 Group = list[Piece]
 """Pieces that stand together; the others are left out where the first finds no place."""

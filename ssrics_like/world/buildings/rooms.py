@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ssrics_like.world.layout import INNER, Block, Box, Front, Side, cells
+from ssrics_like.world.buildings.layout import INNER, Block, Box, Front, Side, cells
 
 ROOM_MIN, SUITE_MIN = cells(2.2), cells(2.4)
 """Least width of a room, and least depth of each of two rooms one behind the other."""

@@ -6,7 +6,17 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssrics_like.world.layout import INNER, OUTER, Block, Box, Front, Layout, Shape, Side, cells
+from ssrics_like.world.buildings.layout import (
+    INNER,
+    OUTER,
+    Block,
+    Box,
+    Front,
+    Layout,
+    Shape,
+    Side,
+    cells,
+)
 
 DEEP = 160  # 8 m: a core from there on holds two rows of rooms
 DEEPEST = 180  # 9 m: nobody builds deeper rooms without light from two sides

@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
-from ssrics_like.world.hallways import Sizes, lay_out
-from ssrics_like.world.interior import fit_out
-from ssrics_like.world.layout import (
+from ssrics_like.world.buildings.hallways import Sizes, lay_out
+from ssrics_like.world.buildings.interior import fit_out
+from ssrics_like.world.buildings.layout import (
     FEWEST,
     INNER,
     SHAPES,
@@ -19,11 +19,11 @@ from ssrics_like.world.layout import (
     Shape,
     cells,
 )
+from ssrics_like.world.buildings.plan import CELL_M, Passage, Plan, Rectangle, Space, draw, pair
+from ssrics_like.world.buildings.rooms import SUITE_MIN, Gate, Habits, Rooms, cut, shared_out
+from ssrics_like.world.buildings.turning import Turning
 from ssrics_like.world.locations import Location
-from ssrics_like.world.plan import CELL_M, Passage, Plan, Rectangle, Space, draw, pair
 from ssrics_like.world.reachable import standing
-from ssrics_like.world.rooms import SUITE_MIN, Gate, Habits, Rooms, cut, shared_out
-from ssrics_like.world.turning import Turning
 
 DOORWAY_MIN_M = 0.85
 """A robot of 0.3 m radius passes it without scraping along."""

@@ -1,0 +1,1 @@
+"""How buildings are drawn from plans, made up, and furnished."""
