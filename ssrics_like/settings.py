@@ -309,7 +309,9 @@ def _model_in(annotation: Any) -> Any:
     return None
 
 
-def override(settings: Settings, changes: Mapping[str, Any], prefix: str) -> Settings:
+def override(
+    settings: Settings, changes: Mapping[str, Any], prefix: str, label: str = "--set "
+) -> Settings:
     """Return the settings with some values replaced, checked anew.
 
     Parameters
@@ -319,7 +321,9 @@ def override(settings: Settings, changes: Mapping[str, Any], prefix: str) -> Set
     changes : mapping
         Dotted key below `settings` -> new value.
     prefix : str
-        What the user typed before the key, for messages: ``memory.``.
+        What stands before the key, for messages: ``memory.``.
+    label : str
+        Where the changes stand, for messages.
 
     Raises
     ------
@@ -333,9 +337,9 @@ def override(settings: Settings, changes: Mapping[str, Any], prefix: str) -> Set
         keys = dotted.split(".")
         inner: Any = data
         for i, key in enumerate(keys):
-            if not isinstance(inner, dict) or (key not in inner and _closed(kind, keys[:i])):
-                known = fields_at(kind, keys[:i])
-                problems.append(f"--set {prefix}{dotted}: unknown key '{key}'{_hint(key, known)}")
+            known = fields_at(kind, keys[:i])
+            if not isinstance(inner, dict) or (known and key not in known):
+                problems.append(f"{label}{prefix}{dotted}: unknown key '{key}'{_hint(key, known)}")
                 break
             if i == len(keys) - 1:
                 inner[key] = value
@@ -348,13 +352,8 @@ def override(settings: Settings, changes: Mapping[str, Any], prefix: str) -> Set
         except ValidationError as e:
             for where, text in explain(kind, e, data):
                 key = f"{'.'.join(map(str, where))}: " if text.startswith("unknown key") else ""
-                problems.append(f"--set {prefix}{key}{text}")
+                problems.append(f"{label}{prefix}{key}{text}")
     raise SettingsError("\n".join(problems))
-
-
-def _closed(kind: type[BaseModel], at: Sequence[str]) -> bool:
-    """Whether the mapping at a path has a fixed set of keys."""
-    return bool(fields_at(kind, at))
 
 
 def parse_override(text: str) -> tuple[str, Any]:

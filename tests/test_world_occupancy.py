@@ -10,17 +10,20 @@ from hypothesis import strategies as st
 
 from ssrics_like.perception.observation import LaserScan, Pose
 from ssrics_like.world.laser import Laser, leaps
+from ssrics_like.world.navigation import Navigator
 from ssrics_like.world.occupancy import (
     BERTH_M,
     BLOCKED,
     OPEN,
+    SILENT_RUN,
     SQUEEZE,
     SQUEEZE_M,
     TIGHT,
     OccupancyGrid,
 )
-from ssrics_like.world.occupancy_kernels import HIT, MISS, MOST, SILENT_RUN
+from ssrics_like.world.occupancy_kernels import HIT, MISS, MOST
 from ssrics_like.world.reachable import clearance
+from ssrics_like.world.robot import LaserProfile, RobotProfile
 
 RADIUS_M = 0.27
 RADII = (RADIUS_M, RADIUS_M + SQUEEZE_M, RADIUS_M + BERTH_M)
@@ -46,8 +49,11 @@ def taken(ranges):
 
 
 def recounted(evidence, cell_m):
-    """Count, for each cell and radius, the occupied cells whose near edge is within the radius."""
-    occupied = np.argwhere(evidence > 0)
+    """Count, for each cell and radius, the occupied cells whose near edge is within the radius.
+
+    The cells around the grid are occupied, too.
+    """
+    occupied = np.argwhere(np.pad(evidence > 0, 1, constant_values=True)) - 1
     row, column = np.indices(evidence.shape)
     counts = np.zeros((len(RADII), *evidence.shape), int)
     for r, c in occupied:
@@ -183,8 +189,10 @@ def test_costs_rise_towards_what_is_occupied():
     own.evidence[:, :5] = 0
     costs = own.costs()
     # From the middle of a cell to the near edge of the occupied one: its distance less half a cell.
+    # What lies around the grid is occupied, too.
     row, column = np.indices(solid.shape)
-    edge_m = (np.hypot(row - 30, column - 30) - 0.5) * CELL_M
+    outside = np.min([row + 1, column + 1, 60 - row, 60 - column], axis=0)
+    edge_m = (np.minimum(np.hypot(row - 30, column - 30), outside) - 0.5) * CELL_M
     expected = np.select([edge_m <= r for r in RADII], [BLOCKED, SQUEEZE, TIGHT], OPEN)
     expected[30, 30] = 0
     expected[:, :5] = 0  # never seen
@@ -294,3 +302,21 @@ def test_a_known_plan_is_believed_until_scans_say_otherwise():
     for _ in range(MOST):
         mapped(grid, pose, own=own)
     assert (own.evidence[~grid.solid] < 0).all()
+
+
+def test_a_short_sighted_laser_maps_no_farther_than_it_sees():
+    # A wall lies 5.5 m ahead, the laser sees 4 m: no beam returns, and nothing beyond is known.
+    own = OccupancyGrid((240, 240), CELL_M, RADIUS_M, reach_m=4.0)
+    scan = LaserScan(np.full(180, np.inf), math.radians(-89.5), math.radians(1.0))
+    own.take(scan, Pose(1.0, 6.0, 0.0), AHEAD.directions)
+    row, column = np.nonzero(own.evidence)
+    far_m = np.hypot((column + 0.5) * CELL_M - 1.0, (row + 0.5) * CELL_M - 6.0)
+    assert 3.9 < far_m.max() < 4.0 + 2 * CELL_M
+
+
+@pytest.mark.parametrize(("dropout", "least"), [(0.0, 5), (0.01, 5), (0.05, 7), (0.5, 30)])
+def test_the_more_beams_are_lost_the_longer_a_run_must_be_to_mean_nothing(dropout, least):
+    # The chance of such a run, dropout to its power, is one in a thousand million at most.
+    laser = LaserProfile(dropout=dropout)
+    navigator = Navigator([], RobotProfile(laser=laser), (10, 10), CELL_M)
+    assert navigator.explored._silent_run == least

@@ -72,7 +72,7 @@ def _watched(what: str, total: int, out: Path, *, quiet: bool) -> Iterator[Progr
         try:
             yield progress
         except KeyboardInterrupt:
-            if out.is_dir():
+            if any(out.glob("*/manifest.json")) or (out / "manifest.json").is_file():
                 raise KeyboardInterrupt(
                     f"finished runs are kept in {out}; --resume goes on"
                 ) from None

@@ -60,6 +60,8 @@ class ResultsFolder:
         self._lock = FileLock(path / ".lock", timeout=0)
         if path.exists() and not path.is_dir():
             raise ResultsError(f"{path}: is a file, expected a folder for results")
+        if (path / "variants.json").is_file():
+            raise ResultsError(f"{path}: holds the results of variants; name another folder")
         taken = [name for name in OURS if (path / name).exists()]
         if taken and not (path / MANIFEST).is_file():
             raise ResultsError(

@@ -150,6 +150,11 @@ class DriveFeed:
         """Return what did not go as planned."""
         drive = self.simulation
         found = list(drive.navigator.notes)
+        if drive.outstanding:
+            found.append(
+                f"a run ended before {drive.outstanding} of the doors and kidnaps that the "
+                "scenario has in store"
+            )
         if drive.ended.startswith("time limit"):
             found.append(f"a run was ended by its {drive.ended}; world.time_limit_s raises it")
         elif self._exploring and drive.coverage < SEEN_ENOUGH:
@@ -224,6 +229,7 @@ def _kept_clear(place: Place) -> list[list[float]]:
     """Return the places that furniture must leave free; the robot's start comes first."""
     world, grid = place.settings, place.building.grid
     named = [w[:2] for leg in world.journey for w in leg.waypoints or []]
+    named += [door.at for door in world.doors if door.at is not None]
     named += [[location.x_m, location.y_m] for location in place.building.locations]
     poses = [place.start, *(kidnap.to for kidnap in place.kidnaps)]
     clear = [[pose.x_m, pose.y_m] for pose in poses]

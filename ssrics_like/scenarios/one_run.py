@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -61,22 +62,33 @@ def carry_out(task: Task, progress: Callable[[float], None]) -> list[dict[str, A
     """
     feed = make_feed(task.parts[0].resolved, task.run)
     if len(task.parts) == 1:
-        return [_through(task.parts[0], task.run, feed, _watched(feed, progress))]
+        observed = _watched(feed, progress, lambda: feed.progress)
+        entry = _through(task.parts[0], task.run, feed, observed)
+        progress(1.0)
+        return [entry]
     # pyactr keeps state for the whole process, so models follow each other, and the drive waits.
-    observations = list(feed)
+    whole = len(task.parts) + 1
+    observations = list(
+        _watched(feed, lambda share: progress(share / whole), lambda: feed.progress)
+    )
     entries = []
-    for done, part in enumerate(task.parts):
-        entries.append(_through(part, task.run, feed, observations))
-        progress((done + 1) / len(task.parts))
+    for done, part in enumerate(task.parts, 1):
+        observed = _watched(observations, progress, partial(float, done / whole))
+        entries.append(_through(part, task.run, feed, observed))
+    progress(1.0)
     return entries
 
 
-def _watched(feed: Feed, progress: Callable[[float], None]) -> Iterable[Observation]:
-    for observation in feed:
+def _watched(
+    observations: Iterable[Observation],
+    progress: Callable[[float], None],
+    so_far: Callable[[], float],
+) -> Iterable[Observation]:
+    """Hand observations on, and tell now and then how far it is."""
+    for observation in observations:
         yield observation
         if observation.index % PROGRESS_EVERY == 0:
-            progress(feed.progress)
-    progress(1.0)
+            progress(so_far())
 
 
 def _through(

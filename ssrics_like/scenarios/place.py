@@ -33,7 +33,7 @@ class Place:
     name : str
         File name of the map, or a word for a generated building.
     sha256 : str
-        Of the floor plan: its cells, their size and origin.
+        Of the floor plan: its cells, their size and origin, and the labelled places.
     building : Building
         As the map shows it.
     robot : RobotProfile
@@ -117,7 +117,7 @@ def place_of(
             f"{_said(world.start)}: {body} does not fit there{_nearest_fit(fits, building, begin)}"
         )
         complain(("world", "start"), text)
-        raise SettingsError("\n".join(problems))
+        begin = roomiest(grid)  # to look at the other places from
     there = standing(grid, begin.x_m, begin.y_m, robot.radius_m)
     for i, leg in enumerate(world.journey):
         above: Key = ("world", "legs", i) if world.legs is not None else ("world",)
@@ -211,5 +211,5 @@ def _nearest_fit(cells: np.ndarray[Any, Any], building: Building, pose: Pose) ->
 
 def _digest(building: Building) -> str:
     grid = building.grid
-    text = f"{grid.cells.shape} {grid.cell_m!r} {grid.origin!r}"
+    text = f"{grid.cells.shape} {grid.cell_m!r} {grid.origin!r} {building.locations!r}"
     return hashlib.sha256(text.encode() + grid.cells.tobytes()).hexdigest()

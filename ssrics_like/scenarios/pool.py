@@ -85,7 +85,9 @@ def over_processes(function: Callable[[Path], object], paths: Sequence[Path], jo
             function(path)
         return
     context = multiprocessing.get_context("forkserver")
-    with ProcessPoolExecutor(min(jobs, len(paths)), mp_context=context) as pool:
+    with ProcessPoolExecutor(
+        min(jobs, len(paths)), mp_context=context, initializer=_leave_ctrl_c
+    ) as pool:
         for _ in pool.map(function, paths):
             pass
 
@@ -114,10 +116,15 @@ class _Stopped(BaseException):
     """The command is being ended; nobody waits for this task any more."""
 
 
-def _begin(shares: Any, stop: Any) -> None:
-    """Prepare a worker: Ctrl-C reaches all processes, but is the first one's to handle."""
-    global _shares, _stop
+def _leave_ctrl_c() -> None:
+    """Ctrl-C reaches all processes, but is the first one's to handle."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _begin(shares: Any, stop: Any) -> None:
+    """Prepare a worker."""
+    global _shares, _stop
+    _leave_ctrl_c()
     _shares, _stop = shares, stop
 
 

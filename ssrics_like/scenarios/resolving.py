@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from pydantic import BaseModel
 
 from ssrics_like import settings
 from ssrics_like.errors import SettingsError, choices, nearest
+from ssrics_like.maps import load_choices
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.productions.rules import EngineParameters, Rulebook
@@ -85,6 +88,9 @@ class Resolved:
         }
 
 
+Settings = TypeVar("Settings", bound=BaseModel)
+
+
 class _Engine(Strict):
     """The part of a rule set that ``--set productions.parameters...`` reaches."""
 
@@ -129,33 +135,44 @@ def resolve(
         A name is unknown, or a file or override is wrong.
     """
     typed = dict(settings.parse_override(text) for text in overrides or [])
-    heads = (*MODULES, "robot")
-    changes: dict[str, dict[str, Any]] = {module: {} for module in heads}
-    own: dict[str, Any] = {}
-    for key, value in {**scenario.set, **typed}.items():
-        head, dot, rest = key.partition(".")
-        if head in changes and dot and (head != "robot" or scenario.world is not None):
-            changes[head][rest] = value
-        elif key in typed and head in Scenario.model_fields:
-            own[key] = value
-        else:
-            raise _unknown(key, head, typed, scenario)
+    heads = (*MODULES, *(("robot",) if scenario.world is not None else ()))
+    written = _by_module(scenario.set, heads)
+    changes = _by_module({k: v for k, v in typed.items() if "." in k}, heads)
+    own = {k: v for k, v in typed.items() if k.partition(".")[0] in Scenario.model_fields
+           and not any(k.startswith(f"{head}.") for head in heads)}  # fmt: skip
+    problems = [
+        _unknown(_place(where, ("set", key)), key, heads, ())
+        for key in scenario.set
+        if not any(key.startswith(f"{head}.") for head in heads)
+    ]
+    problems += [
+        _unknown("--set ", key, heads, Scenario.model_fields)
+        for key in typed
+        if key not in own and not any(key.startswith(f"{head}.") for head in heads)
+    ]
+    if problems:
+        raise SettingsError("\n".join(problems))
+
+    def changed(settings_of: Settings, head: str) -> Settings:
+        """Apply what the scenario's `set` says, then what was typed."""
+        label = f"{_place(where, ('set',))}set."
+        first = settings.override(settings_of, written[head], f"{head}.", label)
+        return settings.override(first, changes[head], f"{head}.")
+
     scenario = settings.override(scenario, own, "")
     # A path that was typed starts where it was typed; one in a scenario file, at that file.
     start = {
         key: Path() if key in own else base
-        for key in (*MODULES, "source.log", "world.map", "world.robot", "world.locations")
+        for key in (*MODULES, "source.log", "world.map", "world.robot", "world.locations", "humans")
     }
     perception = load_perception(at(start["perception"], scenario.perception))
     book = load_productions(at(start["productions"], scenario.productions))
     memory = load_memory(at(start["memory"], scenario.memory))
-    engine = settings.override(
-        _Engine(parameters=book.parameters), changes["productions"], "productions."
-    )
+    engine = changed(_Engine(parameters=book.parameters), "productions")
     place = None
     if scenario.world is not None:
         robot = load_robot(at(start["world.robot"], scenario.world.robot))
-        robot = settings.override(robot, changes["robot"], "robot.")
+        robot = changed(robot, "robot")
         typed_keys = [tuple(key.split(".")) for key in own]
 
         def said_at(key: settings.Key) -> str:
@@ -164,19 +181,51 @@ def resolve(
             return where(key) if where else ""
 
         place = place_of(scenario.world, robot, start, said_at)
+        _check_published(scenario, place, said_at)
+    if scenario.humans is not None:
+        load_choices(start["humans"] / scenario.humans)
     return Resolved(
         scenario=scenario,
         log=start["source.log"] / scenario.source.log if scenario.source else None,
         place=place,
-        perception=settings.override(perception, changes["perception"], "perception."),
+        perception=changed(perception, "perception"),
         productions=replace(book, parameters=engine.parameters),
-        memory=settings.override(memory, changes["memory"], "memory."),
+        memory=changed(memory, "memory"),
     )
 
 
-def _unknown(key: str, head: str, typed: dict[str, Any], scenario: Scenario) -> SettingsError:
-    fields = list(Scenario.model_fields) if key in typed else []
-    heads = [*MODULES, *(["robot"] if scenario.world is not None else [])]
-    known = [*fields, *(f"{module}." for module in heads)]
-    hint = nearest(head, (*fields, *heads))
-    return SettingsError(f"--set {key}: unknown key '{head}'{hint}; known: {choices(known)}")
+def _check_published(
+    scenario: Scenario, place: Place, where: Callable[[settings.Key], str]
+) -> None:
+    """Complain of published figures for locations that the map does not have."""
+    known = [location.id for location in place.building.locations]
+    found = scenario.published.found if scenario.published else {}
+    problems = []
+    for name in found:
+        if name not in known:
+            at_file = where(("published", "found", name))
+            said = (
+                f"the map has no location '{name}'{nearest(name, known)}; it has {choices(known)}"
+            )
+            problems.append(f"{at_file}: published.found: {said}" if at_file else said)
+    if problems:
+        raise SettingsError("\n".join(problems))
+
+
+def _by_module(values: dict[str, Any], heads: tuple[str, ...]) -> dict[str, dict[str, Any]]:
+    """Sort dotted keys by the module that they belong to."""
+    return {
+        head: {k.partition(".")[2]: v for k, v in values.items() if k.startswith(f"{head}.")}
+        for head in heads
+    }
+
+
+def _place(where: Callable[[settings.Key], str] | None, key: settings.Key) -> str:
+    return f"{where(key)}: " if where else ""
+
+
+def _unknown(place: str, key: str, heads: tuple[str, ...], fields: Iterable[str]) -> str:
+    names = [*fields, *heads]
+    known = [*fields, *(f"{head}." for head in heads)]
+    head = key.partition(".")[0]
+    return f"{place}{key}: unknown key '{head}'{nearest(head, names)}; known: {choices(known)}"

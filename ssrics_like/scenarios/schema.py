@@ -15,7 +15,7 @@ from ssrics_like.scenarios.world_settings import Strict, WorldSettings
 MODULES = ("perception", "productions", "memory")
 """The modules of the mind: keys of a scenario, each with a library folder of its own."""
 
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 
 
 class LogSettings(Strict):
@@ -77,7 +77,7 @@ class VariantSettings(Strict):
     @field_validator("name")
     @classmethod
     def _names_a_folder(cls, name: str) -> str:
-        if not _NAME.fullmatch(name):
+        if not NAME.fullmatch(name):
             raise ValueError(f"{name!r}: expected letters, digits, dots and dashes")
         return name
 

@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from ssrics_like import settings
-from ssrics_like.errors import SettingsError, choices, nearest
+from ssrics_like.errors import ResultsError, SettingsError, choices, nearest
 from ssrics_like.results.files import json_text, write_atomically
+from ssrics_like.results.folder import MANIFEST
 from ssrics_like.scenarios.resolving import Resolved, resolve
 from ssrics_like.scenarios.runner import Progress, run_side_by_side
-from ssrics_like.scenarios.schema import MODULES, Scenario
+from ssrics_like.scenarios.schema import MODULES, NAME, Scenario, make_scenario
 
 FORMAT, VERSION = "ssrics-variants", 1
 VARIANTS = "variants.json"
@@ -63,7 +64,12 @@ def variants_of(scenario: Scenario) -> list[Variant]:
         raise SettingsError(f"{len(found)} variants are more than {VARIANTS_MAX}")
     seen: set[str] = set()
     for variant in found:
-        if variant.name in seen or variant.name in (".", ".."):
+        if not NAME.fullmatch(variant.name):
+            raise SettingsError(
+                f"factors: '{variant.name}' cannot name a folder; expected levels of letters, "
+                "digits, dots, dashes and spaces"
+            )
+        if variant.name in seen:
             raise SettingsError(f"variants: two are called '{variant.name}'")
         seen.add(variant.name)
     return found
@@ -85,16 +91,22 @@ def resolve_variants(
             raise SettingsError(
                 f"variant '{variant.name}' sets unknown key '{unknown[0]}'"
                 f"{nearest(unknown[0], MODULES)}; known: {choices(MODULES)} and single values "
-                "as memory.decay"
+                "as memory.decay or world.people.count"
             )
-        single = {key: value for key, value in variant.set.items() if "." in key}
+        own = {k: v for k, v in variant.set.items() if k.startswith(("world.", "source."))}
+        single = {k: v for k, v in variant.set.items() if k not in modules and k not in own}
         data = scenario.model_dump()
         data |= {**modules, "set": {**scenario.set, **single}, "factors": {}, "variants": []}
         data["title"] = f"{scenario.title}: {variant.title}"
-        found.append(
-            (variant, resolve(Scenario.model_validate(data), base,
-                              overrides, where=where))
-        )  # fmt: skip
+        try:
+            changed = settings.override(make_scenario(data), own, "")
+            found.append((variant, resolve(changed, base, overrides, where=where)))
+        except SettingsError as e:
+            said = "\n".join(
+                f"variant '{variant.name}': {line.removeprefix('--set ')}"
+                for line in str(e).splitlines()
+            )
+            raise SettingsError(said) from None
     return found
 
 
@@ -113,8 +125,10 @@ def run_variants(
     `runner.run_side_by_side`.
     """
     pairs = [(each, out / variant.name) for variant, each in resolved]
-    out.mkdir(parents=True, exist_ok=True)
-    manifests = run_side_by_side(pairs, resume=resume, jobs=jobs, progress=progress)
+    if (out / MANIFEST).exists():
+        raise ResultsError(
+            f"{out}: holds the results of a single scenario; name another folder for variants"
+        )
     data = {
         "format": FORMAT,
         "version": VERSION,
@@ -125,5 +139,6 @@ def run_variants(
             for v, _ in resolved
         ],
     }
+    out.mkdir(parents=True, exist_ok=True)
     write_atomically(out / VARIANTS, json_text(data))
-    return manifests
+    return run_side_by_side(pairs, resume=resume, jobs=jobs, progress=progress)

@@ -31,7 +31,7 @@ SET_ASIDE_M = 0.5  # what is left, around where the robot looked
 HOLD_S = 0.5  # between choices, or the robot could waver
 CHECK_S = 0.5  # between looks at whether the way is still open
 FORGETS = 3  # how often it looks again behind what has come to stand in the way
-LOOKS = 2  # scans taken at a frontier before it is set aside
+LOOKS = 2  # scans taken at a frontier; if the next still shows it, it is set aside
 
 
 class Exploration:
@@ -60,7 +60,7 @@ class Exploration:
     def next(self, navigator: Navigator, t_s: float, *, stuck: bool) -> Errand | None:
         """Go on to the frontier, or choose another."""
         errand = navigator.errand
-        if self._target is None:
+        if self._target is None or navigator.moved_away:
             return self._choose(navigator, t_s)
         if not self._is_frontier(navigator, self._target):
             if t_s - self._chosen_s >= HOLD_S or errand.status == ARRIVED:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from ssrics_like.world.motion_kernels import ARRIVED, ON_THE_WAY, free_ahead
-from ssrics_like.world.occupancy import OccupancyGrid
+from ssrics_like.world.occupancy import REACH_M, SILENT_RUN, OccupancyGrid
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,6 +29,7 @@ MAPPING_S = 0.3  # a scan is mapped this often at most; faster ones add little
 STUCK_S = 6.0  # so long without getting anywhere is too long; a turn on the spot takes less
 MOVED_M = 0.05
 BACKING_S = 1.0
+SELDOM = 1e-9  # how often a run of lost beams may be taken for nothing there, per beam
 SIDE_M = 0.02  # berth beside the body that must be free to drive on
 NOWHERE = np.empty((0, 2))
 
@@ -109,6 +110,8 @@ class Navigator:
         How far it can drive straight on.
     backing_until_s : float
         When it has backed off far enough from what it ran against.
+    moved_away : bool
+        Whether the robot has been carried elsewhere since the last look.
     finished : bool
         Whether all legs are done.
     """
@@ -119,12 +122,14 @@ class Navigator:
         self.legs = list(legs)
         self.radius_m = robot.radius_m
         self.cell_m = cell_m
-        self.explored = OccupancyGrid(shape, cell_m, robot.radius_m)
+        self._shape, self._laser = shape, robot.laser
+        self.explored = self.new_map()
         self.planned: OccupancyGrid | None = None
         self.known_cells = 0
         self.errand = Errand()
         self.free_m = 0.0
         self.finished = not self.legs
+        self.moved_away = False
         self.backing_until_s = -math.inf
         self._directions = robot.laser.directions
         self._laser_x_m = robot.laser.x_m
@@ -132,6 +137,19 @@ class Navigator:
         self._mapped_s = -math.inf
         self._moved_s = 0.0
         self._moved_from: Pose | None = None
+
+    def new_map(self) -> OccupancyGrid:
+        """Return an empty map that fits the robot and its laser."""
+        dropout = self._laser.dropout
+        chance = math.log(SELDOM) / math.log(dropout) if 0.0 < dropout < 1.0 else 0.0
+        return OccupancyGrid(
+            self._shape,
+            self.cell_m,
+            self.radius_m,
+            reach_m=min(REACH_M, self._laser.range_max_m),
+            # With many beams lost, only a long run of them means that there was nothing.
+            silent_run=max(SILENT_RUN, math.ceil(chance)),
+        )
 
     @property
     def notes(self) -> list[str]:
@@ -173,6 +191,7 @@ class Navigator:
             if not self.finished:
                 self.legs[self._leg].begin(self, t_s)
                 errand = self.legs[self._leg].next(self, t_s, stuck=False)
+        self.moved_away = False
         errand = errand or Errand(status=ARRIVED)
         self.errand = errand
 
@@ -194,6 +213,7 @@ class Navigator:
     def forget_place(self) -> None:
         """Note that the robot was carried elsewhere: whatever it was driving to is off."""
         self.errand = Errand(status=ARRIVED)
+        self.moved_away = True
         self._mapped_s = -math.inf
 
     def _is_stuck(self, t_s: float) -> bool:

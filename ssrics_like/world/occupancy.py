@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ssrics_like.perception.observation import LaserScan, Pose
 
 REACH_M = 8.0  # beams are mapped up to here; what is farther will be seen from nearer
+SILENT_RUN = 5  # beams that no laser loses side by side, unless it loses many
 SQUEEZE_M = 0.05  # nearer than this to a wall it goes only where there is no other way,
 BERTH_M = 0.25  # and nearer than this only where the way around is long
 BLOCKED, SQUEEZE, TIGHT, OPEN = 255, 10, 3, 1
@@ -38,6 +39,10 @@ class OccupancyGrid:
         Side of a cell, metres.
     radius_m : float
         Radius of the robot's body.
+    reach_m : float
+        Beams are mapped up to here.
+    silent_run : int
+        So many neighbouring beams without return have met nothing; fewer may have been lost.
 
     Attributes
     ----------
@@ -45,20 +50,31 @@ class OccupancyGrid:
         Above 0 occupied, below 0 free, 0 never seen.
     """
 
-    def __init__(self, shape: tuple[int, int], cell_m: float, radius_m: float) -> None:
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        cell_m: float,
+        radius_m: float,
+        *,
+        reach_m: float = REACH_M,
+        silent_run: int = SILENT_RUN,
+    ) -> None:
         self.cell_m = cell_m
+        self._reach_m, self._silent_run = reach_m, silent_run
         self.evidence = np.zeros(shape, np.int8)
         self._history = np.zeros(shape, np.uint8)
         self._counts = np.zeros((3, *shape), np.int16)
         self._discs = _offsets(
             [radius_m / cell_m, (radius_m + SQUEEZE_M) / cell_m, (radius_m + BERTH_M) / cell_m]
         )
+        occupancy_kernels.count_outside(self._counts, self._discs)
 
     def take(self, scan: LaserScan, pose: Pose, directions: NDArray[np.float64]) -> int:
         """Take a scan from a pose in the grid frame; return how many cells became known."""
         new: int = occupancy_kernels.take_scan(
             self.evidence, self._history, self._counts, self._discs, self.cell_m,
-            (pose.x_m, pose.y_m, pose.theta_rad), directions, scan.ranges_m, REACH_M,
+            (pose.x_m, pose.y_m, pose.theta_rad), directions, scan.ranges_m, self._reach_m,
+            self._silent_run,
         )  # fmt: skip
         return new
 

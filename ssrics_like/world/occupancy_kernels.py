@@ -20,9 +20,6 @@ CLEAR, MOVED = 1, 2
 EDGE = 0.5
 """Cells by which a reading is taken to reach into what it met, so that noise does not thicken walls."""  # noqa: E501
 
-SILENT_RUN = 5
-"""So many neighbouring beams without return have met nothing; fewer may have been lost."""
-
 
 @compiled
 def _recount(
@@ -116,18 +113,18 @@ def _clear_ray(
 
 
 @compiled
-def _silent(ranges_m: NDArray[np.float64], k: int) -> bool:
-    """Tell whether beam k stands in a long run of beams without return."""
+def _silent(ranges_m: NDArray[np.float64], k: int, least: int) -> bool:
+    """Tell whether beam k stands in a run of at least so many beams without return."""
     run = 1
     i = k - 1
-    while i >= 0 and math.isinf(ranges_m[i]) and run < SILENT_RUN:
+    while i >= 0 and math.isinf(ranges_m[i]) and run < least:
         run += 1
         i -= 1
     i = k + 1
-    while i < ranges_m.shape[0] and math.isinf(ranges_m[i]) and run < SILENT_RUN:
+    while i < ranges_m.shape[0] and math.isinf(ranges_m[i]) and run < least:
         run += 1
         i += 1
-    return run >= SILENT_RUN
+    return run >= least
 
 
 @compiled
@@ -141,11 +138,14 @@ def take_scan(
     directions: NDArray[np.float64],
     ranges_m: NDArray[np.float64],
     reach_m: float,
+    silent_run: int,
 ) -> int:
     """Take a scan into the map; return how many cells became known.
 
-    Beams count up to `reach_m`. Between neighbouring beams the space up to the nearer of their
-    readings is taken for free, so that a map of far walls has no gaps.
+    Beams count up to `reach_m`. A beam without return has met nothing up to there if it stands in
+    a run of at least `silent_run` such beams; else it may have been lost, and says nothing.
+    Between neighbouring beams the space up to the nearer of their readings is taken for free, so
+    that a map of far walls has no gaps.
     """
     x, y, theta = pose
     px, py, reach = x / cell_m, y / cell_m, reach_m / cell_m
@@ -159,7 +159,7 @@ def take_scan(
         r = ranges_m[k]
         c, s = directions[k, 0], directions[k, 1]
         dx, dy = cos * c - sin * s, sin * c + cos * s
-        if math.isnan(r) or (math.isinf(r) and not _silent(ranges_m, k)):
+        if math.isnan(r) or (math.isinf(r) and not _silent(ranges_m, k, silent_run)):
             before = -1.0
             continue
         free = min(r / cell_m - EDGE, reach)
@@ -222,3 +222,15 @@ def passing_costs(
                 costs[r, c] = prices[1]
             else:
                 costs[r, c] = prices[2]
+
+
+@compiled
+def count_outside(counts: NDArray[np.int16], discs: NDArray[np.int32]) -> None:
+    """Count what lies around the grid as occupied."""
+    rows, columns = counts.shape[1], counts.shape[2]
+    for row in range(-1, rows + 1):
+        _recount(counts, discs, row, -1, 1)
+        _recount(counts, discs, row, columns, 1)
+    for column in range(columns):
+        _recount(counts, discs, -1, column, 1)
+        _recount(counts, discs, rows, column, 1)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import ndimage
 
+from ssrics_like.errors import MapError
 from ssrics_like.world import way_kernels
 from ssrics_like.world.occupancy import BLOCKED, OPEN, TIGHT
 
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 BERTH_M = 0.2  # they keep off walls where there is room
 POLITE_M = 0.3  # they stop this far from the robot
+ENTRY_M = 1.0  # so far from the robot they start, if there is room
+TRIES = 50
 PATIENCE_S = 3.0  # and turn elsewhere when it does not go away
 
 
@@ -48,6 +51,7 @@ class People:
         self._rng = rng
         self._ways: list[NDArray[np.float64]] = [np.empty((0, 2))] * count
         self._waited_s = np.zeros(count)
+        self._entered = False
 
     def enter(self, clearance: NDArray[np.float32], cell_m: float, robot: Pose) -> None:
         """Learn the building, at first or after it has changed.
@@ -74,10 +78,14 @@ class People:
         ends = np.searchsorted(self._parts.ravel()[order], np.arange(count + 2))
         self._places = [order[ends[i] : ends[i + 1]] for i in range(count + 1)]
         self._ways = [np.empty((0, 2))] * len(self.discs)
-        part = int(self._parts[int(robot.y_m / cell_m), int(robot.x_m / cell_m)])
-        if part and not self.discs[:, :2].any():
+        if not self._entered:
+            self._entered = True
+            part = self._part_near(robot)
             for disc in self.discs:
-                disc[:2] = self._place(part)
+                for _ in range(TRIES):
+                    disc[:2] = self._place(part)
+                    if math.hypot(disc[0] - robot.x_m, disc[1] - robot.y_m) > ENTRY_M:
+                        break
 
     def walk(self, seconds: float, robot: Pose, robot_radius_m: float) -> None:
         """Let everybody walk for a moment."""
@@ -101,9 +109,21 @@ class People:
             else:
                 disc[:2] = x, y
                 self._ways[i] = way
+                self._waited_s[i] = 0.0
             if not len(self._ways[i]) or self._waited_s[i] > PATIENCE_S:
                 self._waited_s[i] = 0.0
                 self._ways[i] = self._new_way(disc)
+
+    def _part_near(self, robot: Pose) -> int:
+        """Return the part of the building that the robot is in, or the one nearest to it."""
+        row, column = np.nonzero(self._parts)
+        if not len(row):
+            raise MapError(f"people of radius {self.discs[0, 2]:g} m fit nowhere on the map")
+        far = np.hypot(
+            (column + 0.5) * self._cell_m - robot.x_m, (row + 0.5) * self._cell_m - robot.y_m
+        )
+        nearest = int(np.argmin(far))
+        return int(self._parts[row[nearest], column[nearest]])
 
     def _place(self, part: int) -> tuple[float, float]:
         """Return a random place in a part of the building."""

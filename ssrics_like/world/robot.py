@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 NotNegative = Annotated[float, Field(ge=0.0, le=100.0)]
 Positive = Annotated[float, Field(gt=0.0, le=100.0)]
@@ -31,7 +31,8 @@ class LaserProfile(_Strict):
     rate_hz : float
         Scans per second.
     range_max_m : float
-        A beam that meets nothing up to here has no return: infinity.
+        A beam that meets nothing up to here has no return: infinity. Noise comes after that, so
+        that a reading may be a little longer.
     noise_m : float
         Standard deviation of each range, Gaussian.
     dropout : float
@@ -48,7 +49,7 @@ class LaserProfile(_Strict):
     beams: Annotated[int, Field(ge=2, le=10_000)] = 180
     first_bearing_deg: Annotated[float, Field(ge=-360.0, le=360.0)] = -89.5
     step_deg: Annotated[float, Field(gt=0.0, le=90.0)] = 1.0
-    rate_hz: Annotated[float, Field(ge=0.1, le=200.0)] = 10.0
+    rate_hz: Annotated[float, Field(ge=1.0, le=200.0)] = 10.0
     range_max_m: Annotated[float, Field(gt=0.0, le=1000.0)] = 80.0
     noise_m: Annotated[float, Field(ge=0.0, le=10.0)] = 0.02
     dropout: Share = 0.0
@@ -125,3 +126,11 @@ class RobotProfile(_Strict):
     actuation: Annotated[float, Field(ge=0.0, le=0.5)] = 0.02
     odometry: OdometryProfile = OdometryProfile()
     laser: LaserProfile = LaserProfile()
+
+    @model_validator(mode="after")
+    def _laser_on_board(self) -> Self:
+        if abs(self.laser.x_m) > self.radius_m:
+            raise ValueError(
+                f"laser.x_m is {self.laser.x_m:g}, outside the body of radius {self.radius_m:g} m"
+            )
+        return self

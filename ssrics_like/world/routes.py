@@ -10,7 +10,7 @@ import numpy as np
 from ssrics_like.world import way_kernels
 from ssrics_like.world.motion_kernels import ARRIVED
 from ssrics_like.world.navigation import Errand
-from ssrics_like.world.occupancy import SQUEEZE, OccupancyGrid
+from ssrics_like.world.occupancy import SQUEEZE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 PATIENCE_S = 10.0  # for a way to open, before a waypoint is given up
 RETRY_S = 1.0
+STUCK_MOST = 3  # on the way to a waypoint
 CHECK_S = 0.5
 
 
@@ -57,11 +58,12 @@ class Route:
         self._solid = solid
         self._waiting_s: float | None = None
         self._checked_s = -math.inf
+        self._stuck = 0
 
     def begin(self, navigator: Navigator, t_s: float) -> None:
         """Give the robot the floor plan, once."""
         if navigator.planned is None:
-            grid = OccupancyGrid(self._solid.shape, navigator.cell_m, navigator.radius_m)
+            grid = navigator.new_map()
             grid.know(self._solid)
             navigator.planned = grid
         navigator.errand = Errand(status=ARRIVED)
@@ -81,10 +83,15 @@ class Route:
             return self._plan(navigator, t_s)
         if errand.status == ARRIVED and len(errand.way):
             self._left.pop(0)
+            self._stuck = 0
             return self._plan(navigator, t_s)
         if errand.status == ARRIVED:  # carried elsewhere
             return self._plan(navigator, t_s)
         if stuck:
+            self._stuck += 1
+            if self._stuck > STUCK_MOST:
+                self._leave_out(f"the robot got stuck {self._stuck} times on its way")
+                return self._plan(navigator, t_s)
             return self._wait(t_s)
         if t_s - self._checked_s >= CHECK_S:
             self._checked_s = t_s
@@ -96,7 +103,7 @@ class Route:
         """Plan the way to the next waypoint; wait where there is none, give up in the end."""
         self._checked_s = t_s
         while self._left:
-            waypoint, name = self._left[0]
+            waypoint, _ = self._left[0]
             way = _way(navigator, waypoint)
             if way is not None:
                 self._waiting_s = None
@@ -106,10 +113,15 @@ class Route:
                 self._waiting_s = t_s
             if t_s - self._waiting_s < PATIENCE_S:
                 return Errand()
-            self.notes.append(f"{name} was left out: no way led there for {PATIENCE_S:g} s")
-            self._waiting_s = None
-            self._left.pop(0)
+            self._leave_out(f"no way led there for {PATIENCE_S:g} s")
         return None
+
+    def _leave_out(self, why: str) -> None:
+        """Give the next waypoint up."""
+        _, name = self._left.pop(0)
+        self.notes.append(f"{name} was left out: {why}")
+        self._waiting_s = None
+        self._stuck = 0
 
     def _wait(self, t_s: float) -> Errand:
         """Stand still for a moment, then plan anew."""

@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import ndimage
 
 from ssrics_like.perception.observation import Observation, Pose
 from ssrics_like.world import motion_kernels
@@ -125,6 +124,11 @@ class Simulation:
         places = (self._reachable + 0.5) * (self.grid.cell_m / navigator.cell_m)
         row, column = places.astype(np.int64).T
         return float(np.mean(navigator.explored.evidence[row, column] != 0))
+
+    @property
+    def outstanding(self) -> int:
+        """Number of doors and kidnaps that are still to come."""
+        return len(self._doors) + len(self._kidnaps)
 
     @property
     def progress(self) -> float:
@@ -254,13 +258,17 @@ def mapped_solid(grid: GridMap, cell_m: float) -> NDArray[np.bool_]:
     if cell_m == grid.cell_m:
         return grid.solid
     rows, columns = mapped_shape(grid, cell_m)
-    ratio = cell_m / grid.cell_m
-    row = np.minimum(((np.arange(rows) + 0.5) * ratio).astype(np.int64), grid.cells.shape[0] - 1)
-    column = np.minimum(
-        ((np.arange(columns) + 0.5) * ratio).astype(np.int64), grid.cells.shape[1] - 1
-    )
-    wide = ndimage.maximum_filter(grid.solid, size=max(math.ceil(ratio), 1))
-    solid: NDArray[np.bool_] = wide[np.ix_(row, column)]
+    solid = grid.solid
+    for axis, size in ((0, rows), (1, columns)):
+        # Cells first .. last of the plan lie, in part at least, in each cell of the map.
+        edges = np.arange(size + 1) * (cell_m / grid.cell_m)
+        first = np.minimum(np.floor(edges[:-1] + 1e-9), solid.shape[axis] - 1).astype(np.int64)
+        last = np.minimum(np.ceil(edges[1:] - 1e-9), solid.shape[axis]).astype(np.int64)
+        parts = [
+            solid.take(range(i, max(j, i + 1)), axis=axis).any(axis=axis)
+            for i, j in zip(first, last, strict=True)
+        ]
+        solid = np.stack(parts, axis=axis)
     return solid
 
 
