@@ -45,7 +45,9 @@ def true_marks(folder):
 
 def test_the_table_has_the_columns_of_the_contract(folder):
     lines = (folder / "locations.csv").read_text().splitlines()
-    assert lines[0] == "location,kind,label,x_m,y_m,runs,found,share,low,high,chance,published"
+    assert (
+        lines[0] == "location,kind,label,x_m,y_m,runs,found,share,low,high,chance,clock,published"
+    )
     assert lines[1].startswith("1,doorway,lab,8.660254,3,14,")
     assert lines[1].endswith(",0.57")
     assert [line.split(",")[0] for line in lines[1:]] == [*"123456ABC"]

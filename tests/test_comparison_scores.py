@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ssrics_like.comparison.agreement import consistency
-from ssrics_like.comparison.chance import mean_by_chance, random_marks
+from ssrics_like.comparison.chance import clock_marks, mean_by_chance, random_marks
 from ssrics_like.comparison.matching import match
 from ssrics_like.comparison.proportions import chance_corrected, harmonic_mean, wilson
 from ssrics_like.comparison.scores import Drive, score_runs
@@ -202,3 +202,23 @@ def test_what_cannot_be_said_is_nan(drives, locations):
     assert math.isnan(tally.marks_per_100_m) == (tally.length_m == 0)
     for value in tally.figures().values():
         assert math.isnan(value) or 0 <= value <= 100
+
+
+@pytest.mark.parametrize(
+    ("marks", "expected"), [(1, 0.02), (10, 0.2), (40, 0.8), (50, 1.0), (80, 1.0)]
+)
+def test_a_clock_finds_a_place_as_often_as_the_closed_form_says(marks, expected):
+    # 100 m at a constant speed, m marks 100 / m apart, a window of 2 m: min(1, 2 m / 100).
+    path = np.column_stack([np.linspace(0.0, 100.0, 10_001), np.zeros(10_001)])
+    share = mean_by_chance(
+        path, marks, lambda drawn: [match(drawn, [(50.0, 0.0)], 1.0)[0] >= 0],
+        np.random.default_rng(1), 4000, clock_marks,
+    )  # fmt: skip
+    assert share[0] == pytest.approx(expected, abs=0.03)
+
+
+def test_a_clock_marks_at_equal_intervals():
+    path = np.column_stack([np.arange(100.0), np.zeros(100)])
+    x = clock_marks(path, 10, np.random.default_rng(3))[:, 0]
+    assert np.array_equal(np.diff(x), np.full(9, 10.0))
+    assert len(clock_marks(path, 0, np.random.default_rng(3))) == 0

@@ -18,7 +18,7 @@ from ssrics_like.world.building import Building
 
 FACTORS = {"intervals": ("tumbling", "sliding"), "marked": ("every <novel>", "onset", "peak")}
 COLUMNS = (  # the contract, literally
-    "name,intervals,marked,runs,recall,low,high,chance,corrected_recall,precision,"
+    "name,intervals,marked,runs,recall,low,high,chance,clock,corrected_recall,precision,"
     "marks_per_100_m,duplicates,consistency,f,distance_to_published"
 )
 
@@ -131,8 +131,8 @@ def test_nothing_labelled_leaves_the_figures_empty(tmp_path):
     assert "no variant could be scored" in page.words
     assert (out / "variants.csv").read_text().splitlines() == [
         COLUMNS.replace("intervals,marked", "factor_runs"),
-        "v00,a,2" + "," * 11,
-        "v01,b,2" + "," * 11,
+        "v00,a,2" + "," * 12,
+        "v01,b,2" + "," * 12,
     ]
     assert not (out / "figures" / "variants.svg").exists()
 

@@ -386,6 +386,12 @@ def test_two_variants_of_one_name_are_refused():
             variants(**more)
 
 
+@pytest.mark.parametrize("level", ["a/b", "../a", "/tmp/a", "..", "", "a\nb", ".hidden"])
+def test_levels_that_name_no_folder_are_refused(level):
+    with pytest.raises(SettingsError, match="cannot name a folder"):
+        variants(factors={"f": {level: {}}})
+
+
 def test_too_many_variants_are_refused():
     levels = {f"l{i}": {} for i in range(11)}
     assert len(variants(factors={"a": levels, "b": levels})) == 121
@@ -419,6 +425,27 @@ def test_what_is_typed_reaches_every_variant(varied, folder):
     assert {resolved.memory.decay for _, resolved in each} == {0.2}
     assert {resolved.scenario.runs for _, resolved in each} == {1}
     assert {resolved.place.robot.radius_m for _, resolved in each} == {0.2}
+
+
+def test_variants_of_the_world_are_other_drives(folder):
+    data = {
+        "world": {"map": "two.yaml", "people": {"count": 1}},
+        "factors": {"crowd": {"few": {}, "many": {"world.people.count": 6}}},
+        "variants": [{"name": "swift", "set": {"robot.speed_m_s": 2.0, "world.slip.per_m": 0.1}}],
+    }
+    few, many, swift = (each for _, each in resolve_variants(make_scenario(data), folder))
+    assert few.place.settings.people.count == 1
+    assert many.place.settings.people.count == 6
+    assert swift.place.settings.slip.per_m == 0.1
+    assert len({drive_key(each) for each in (few, many, swift)}) == 3
+
+
+def test_a_folder_of_variants_and_one_of_runs_are_not_mixed(folder, whole, varied):
+    read, each, out, _ = varied
+    with pytest.raises(ResultsError, match="holds the results of variants"):
+        run_scenario(scenario(folder), out)
+    with pytest.raises(ResultsError, match="holds the results of a single scenario"):
+        run_variants(read, each, whole[0])
 
 
 def test_a_scenario_made_in_python_runs_without_a_file(tmp_path):

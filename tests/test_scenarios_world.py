@@ -288,6 +288,17 @@ def test_a_start_in_a_wall_is_said_with_the_nearest_place(maps):
         assert "does not fit there" in said
 
 
+def test_a_wrong_start_does_not_hide_what_else_is_wrong(maps):
+    path = written(
+        maps,
+        f"world:\n  map: two.yaml\n  start: {in_map(4.0, 0.5)}\n  waypoints: [[99, 99]]\n"
+        "  doors: [{location: dor}]\n",
+    )
+    assert [line.split(": ")[:2] for line in complaints(path)] == [
+        ["3:3", "world.start"], ["4:15", "world.waypoints.0"], ["5:12", "world.doors.0.location"],
+    ]  # fmt: skip
+
+
 def test_a_robot_too_wide_for_the_map_is_said(maps, tmp_path):
     (maps / "wide.yaml").write_text("radius_m: 2.5\n")
     path = written(maps, "world:\n  map: two.yaml\n  robot: ./wide.yaml\n")
@@ -427,6 +438,18 @@ def test_values_of_world_and_robot_can_be_set(maps, override, where, value):
     # It decides the drives, and stands in what is said of the results.
     assert drive_key(resolved) != drive_key(load_resolved(path))
     assert resolved.as_data()["world"] == resolved.place.as_data()
+
+
+@pytest.mark.parametrize(
+    "override", ["world.people.count=4", "world.slip.per_m=0.2", "world.furniture.pieces=3"]
+)
+def test_a_section_that_was_left_out_can_be_set_by_what_it_needs(override):
+    resolved = resolve(
+        make_scenario({"world": {"building": {"rooms": 2}}}), library.root(), [override]
+    )
+    _, section, rest = override.split(".", 2)
+    key, value = rest.split("=")
+    assert resolved.place.as_data()[section][key] == float(value)
 
 
 @pytest.mark.parametrize(

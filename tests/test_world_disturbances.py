@@ -190,6 +190,23 @@ def test_people_walk_no_faster_than_stated_and_through_no_wall(seed):
         assert distance_to_solid(OFFICES, x, y) >= radius - 0.75 * CELL_M
 
 
+def test_people_start_where_the_robot_is_not_and_in_its_part_of_the_building():
+    shut = GridMap((TWO.solid | LEAF).astype(np.uint8), CELL_M)
+    room_m = clearance(shut).astype(np.float32)
+    for seed in range(100):
+        crowd = People(2, 1.1, 0.22, np.random.default_rng(seed))
+        crowd.enter(room_m, CELL_M, Pose(0.6, 1.5, 0.0))
+        for x, y, radius in crowd.discs:
+            assert math.dist((x, y), (0.6, 1.5)) > radius + 0.27
+            assert x < DOOR[0]
+
+
+def test_people_for_whom_there_is_no_room_are_refused():
+    crowd = People(1, 1.1, 1.6, np.random.default_rng(0))
+    with pytest.raises(MapError, match=r"people of radius 1\.6 m fit nowhere"):
+        crowd.enter(clearance(TWO).astype(np.float32), CELL_M, Pose(1.0, 1.5, 0.0))
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_people_stop_before_the_robot_and_turn_elsewhere(seed):
     places = walk(TWO, seed, robot=DOOR, people=3, seconds=120.0)
@@ -319,3 +336,15 @@ def test_carried_into_another_room_it_explores_that_one_too():
     assert drive.ended == "no frontier left"
     evidence = drive.navigator.explored.evidence
     assert (evidence[2:-2, 62:-2] < 0).mean() > 0.99
+
+
+def test_being_carried_off_is_no_try_at_the_frontier_that_it_drove_to():
+    leg = Exploration()
+    drive = simulated(
+        OFFICES, exact_robot(), (1.5, 1.0), [leg],
+        disturbances=Disturbances(kidnaps=(Kidnap(5.0, Pose(7.5, 5.0, 0.0)),)),
+    )  # fmt: skip
+    tries = {round(o.t_s, 6): leg.set_aside for o in drive}
+    assert tries[4.9] == tries[5.5]
+    assert drive.ended == "no frontier left"
+    assert drive.coverage >= 0.99

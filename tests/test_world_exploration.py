@@ -14,6 +14,7 @@ from ssrics_like.world.buildings.plan import build
 from ssrics_like.world.disturbances import Crowd, Disturbances, DoorChange, SlipSettings
 from ssrics_like.world.doors import door_leaf
 from ssrics_like.world.exploration import Exploration
+from ssrics_like.world.grid import GridMap
 from ssrics_like.world.reachable import roomiest
 
 LASERS = {
@@ -99,6 +100,26 @@ def test_a_closed_door_is_a_wall_and_one_that_closes_on_the_way_ends_the_search(
     late = explored(grid, (1.0, 1.5, math.pi), doors=(DoorChange(0.5, leaf, closed=True),))
     assert late.ended == NO_FRONTIER
     assert 0.45 < late.coverage < 0.65
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_short_sighted_laser_sees_all_too_and_through_no_wall(seed):
+    # Two halls of 10 x 10 m, a wall of half a metre and a gate between them; it sees 4 m.
+    halls = room(20.5, 10.0, walls=[(10.0, 0.0, 10.5, 4.5), (10.0, 5.5, 10.5, 10.0)])
+    drive = explored(halls, (5.0, 5.0), wobbly(240, range_max_m=4.0), seed)
+    assert drive.ended == NO_FRONTIER
+    assert drive.coverage >= 0.99
+    seen = drive.navigator.explored.evidence < 0
+    assert (seen & halls.solid).sum() <= 10  # where beams graze an edge
+
+
+def test_a_plan_without_outer_walls_ends_at_its_edge():
+    field = GridMap(np.zeros((60, 120), np.uint8), 0.05)
+    for seed in range(3):
+        drive = explored(field, (1.0, 1.5), seed=seed)
+        assert drive.ended == NO_FRONTIER
+        assert drive.coverage >= 0.99
+        assert drive.bumps == 0
 
 
 def test_the_time_limit_is_said_as_such():

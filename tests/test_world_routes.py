@@ -7,9 +7,10 @@ import pytest
 from buildings import CELL_M, DOOR, exact_robot, offices, room, simulated, two_rooms
 
 from ssrics_like.perception.observation import Pose
-from ssrics_like.world.disturbances import Disturbances, DoorChange, Kidnap
+from ssrics_like.world.disturbances import Disturbances, DoorChange, Kidnap, SlipSettings
 from ssrics_like.world.doors import door_leaf
 from ssrics_like.world.exploration import Exploration
+from ssrics_like.world.grid import OCCUPIED, GridMap
 from ssrics_like.world.motion_kernels import ARRIVED_M, FACED_RAD
 from ssrics_like.world.routes import PATIENCE_S, Route, Wait
 
@@ -148,6 +149,27 @@ def test_it_goes_round_what_the_plan_does_not_show():
     assert drive.pose.x_m == pytest.approx(7.0, abs=ARRIVED_M + 0.03)
     beside = (poses[:, 0] > 3.5) & (poses[:, 0] < 4.5)
     assert np.abs(poses[beside, 1] - 2.0).min() > 0.8 + 0.27 - 0.75 * CELL_M
+
+
+def test_a_waypoint_that_it_gets_no_nearer_to_is_left_out():
+    spinning = Disturbances(slip=SlipSettings(per_m=1e6, length_m=1e6, share=1.0))
+    drive, _ = driven(OFFICES, (1.5, 1.0), route([(3.0, 1.0)]), disturbances=spinning)
+    assert drive.ended == "end of the route"
+    assert drive.navigator.notes == [
+        "waypoint 1 was left out: the robot got stuck 4 times on its way"
+    ]
+    assert drive.way_m < 0.1
+
+
+def test_on_a_plan_without_outer_walls_it_keeps_off_the_edge():
+    field = GridMap(np.zeros((60, 160), np.uint8), CELL_M)
+    field.cells[16:, 70:80] = OCCUPIED  # 0.8 m are left to pass at the edge
+    drive, poses = driven(field, (1.0, 1.5), route([(7.0, 1.5)], grid=field))
+    assert drive.ended == "end of the route"
+    assert drive.navigator.notes == []
+    assert drive.bumps == 0
+    assert poses[:, 1].min() >= 0.27
+    assert drive.t_s < 25.0
 
 
 def test_waiting_takes_its_time_and_moves_nothing():

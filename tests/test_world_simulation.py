@@ -21,7 +21,7 @@ from buildings import (
 
 from ssrics_like.perception.observation import Pose
 from ssrics_like.scenarios.modules import load_robot
-from ssrics_like.world.disturbances import Crowd, Disturbances, SlipSettings
+from ssrics_like.world.disturbances import Crowd, Disturbances, DoorChange, Kidnap, SlipSettings
 from ssrics_like.world.exploration import Exploration
 from ssrics_like.world.grid import OCCUPIED, GridMap
 from ssrics_like.world.reachable import reachable
@@ -204,6 +204,20 @@ def test_coverage_on_a_map_of_a_few_cells():
     assert drive.coverage == np.count_nonzero(known & ~grid.solid) / 19
 
 
+def test_what_did_not_happen_any_more_is_counted():
+    leaf = np.zeros((120, 180), bool)
+    changes = (DoorChange(0.5, leaf, closed=True), DoorChange(5.0, leaf, closed=False))
+    kidnaps = (Kidnap(3.0, Pose(1.5, 1.0, 0.0)),)
+    for wait_s, left in ((0.2, 3), (1.0, 2), (4.0, 1), (6.0, 0)):
+        happenings = Disturbances(doors=changes, kidnaps=kidnaps)
+        drive = simulated(
+            OFFICES, exact_robot(), (1.5, 1.0), [Wait(wait_s)], disturbances=happenings
+        )
+        for _ in drive:
+            pass
+        assert drive.outstanding == left
+
+
 def test_progress_grows_with_what_is_known_up_to_about_one():
     drive = simulated(OFFICES, PIONEER, (1.5, 1.0), [Exploration()], 1)
     shares = [drive.progress for _ in drive]
@@ -219,7 +233,7 @@ def test_plans_are_mapped_in_their_own_cells_unless_these_are_fine_or_coarse(cel
     assert mapped_cell_m(GridMap(np.zeros((3, 3), np.uint8), cell_m)) == mapped_m
 
 
-@pytest.mark.parametrize("cell_m", [0.01, 0.02, 0.025, 0.2])
+@pytest.mark.parametrize("cell_m", [0.01, 0.015, 0.02, 0.025, 0.03, 0.035, 0.2])
 def test_a_mapped_cell_is_solid_where_any_part_of_it_is(cell_m):
     rng = np.random.default_rng(1)
     cells = np.where(rng.uniform(size=(23, 31)) < 0.03, OCCUPIED, 0).astype(np.uint8)

@@ -1,4 +1,4 @@
-"""What as many marks would find if the robot set them anywhere on its way."""
+"""What as many marks would find that know nothing: set anywhere on the way, or by a clock."""
 
 from __future__ import annotations
 
@@ -49,14 +49,44 @@ def random_marks(
     return marks
 
 
+def clock_marks(path: ArrayLike, count: int, generator: np.random.Generator) -> NDArray[np.float64]:
+    """Set marks along a path at equal intervals of time, the first of them at a random moment.
+
+    Marks at random clump, and leave places out that evenly spaced ones meet. A rule that marks
+    every so many scans, whatever they show, is to be compared with this.
+
+    Parameters
+    ----------
+    path : array_like, shape (poses, 2)
+        Where the robot was, metres, at equal intervals of time; at least one pose.
+    count : int
+        How many marks.
+    generator : numpy.random.Generator
+        Source of the random moment.
+
+    Returns
+    -------
+    ndarray, shape (count, 2)
+        Poses of the path.
+    """
+    path = points(path)
+    moments = (np.arange(count) + generator.random()) / max(count, 1)
+    marks: NDArray[np.float64] = path[(moments * len(path)).astype(np.int64)]
+    return marks
+
+
+Placing = Callable[[ArrayLike, int, np.random.Generator], NDArray[np.float64]]
+
+
 def mean_by_chance(
     path: ArrayLike,
     count: int,
     statistic: Statistic,
     generator: np.random.Generator,
     draws: int = DRAWS,
+    placing: Placing = random_marks,
 ) -> NDArray[np.float64]:
-    """Return the mean of a statistic over random marks at the density of the real ones.
+    """Return the mean of a statistic over marks that know nothing, as many as the real ones.
 
     Parameters
     ----------
@@ -70,6 +100,8 @@ def mean_by_chance(
         Source of the randomness.
     draws : int
         How often marks are drawn.
+    placing : callable
+        How they are set: `random_marks` or `clock_marks`.
 
     Returns
     -------
@@ -79,5 +111,5 @@ def mean_by_chance(
     path = points(path)
     if len(path) == 0:
         return np.full(np.shape(statistic(path)), np.nan)
-    marks = random_marks(path, draws * count, generator).reshape(draws, count, 2)
-    return np.asarray(np.mean([np.asarray(statistic(draw)) for draw in marks], axis=0))
+    found = [np.asarray(statistic(placing(path, count, generator))) for _ in range(draws)]
+    return np.asarray(np.mean(found, axis=0))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
 from ssrics_like.comparison.agreement import consistency
-from ssrics_like.comparison.chance import DRAWS, mean_by_chance
+from ssrics_like.comparison.chance import DRAWS, clock_marks, mean_by_chance
 from ssrics_like.comparison.matching import NONE, match, points
 from ssrics_like.comparison.merging import merge
 from ssrics_like.comparison.proportions import share, wilson
@@ -52,12 +52,15 @@ class PlaceScore:
         How many runs there were, and in how many it was found.
     chance : float
         Share of runs in which as many marks at random would have found it.
+    clock : float
+        Share of runs in which as many marks by a clock would have found it.
     """
 
     location: Location
     runs: int
     found: int
     chance: float
+    clock: float
 
     @property
     def designated(self) -> bool:
@@ -144,10 +147,14 @@ def score_runs(
 
     found = np.zeros((len(drives), len(places)), bool)
     chance = np.zeros((len(drives), len(places)))
+    clock = np.zeros((len(drives), len(places)))
     tallies = []
     for i, drive in enumerate(drives):
         found[i] = found_by(drive.marks)
         chance[i] = mean_by_chance(drive.path, len(drive.marks), found_by, generator, draws)
+        clock[i] = mean_by_chance(
+            drive.path, len(drive.marks), found_by, generator, draws, clock_marks
+        )
         merged = merge(drive.marks, radius_m)
         at_found = _marks_nearest(drive.marks, places[designated], radius_m)[found[i][designated]]
         tallies.append(
@@ -160,12 +167,17 @@ def score_runs(
                 found=int(found[i][designated].sum()),
                 repeats=int(np.maximum(at_found - 1, 0).sum()),
                 expected=float(chance[i][designated].sum()),
+                by_clock=float(clock[i][designated].sum()),
                 length_m=drive.length_m,
             )
         )
-    by_place = chance.mean(axis=0) if len(drives) else np.full(len(places), np.nan)
+    none = np.full(len(places), np.nan)
+    by_place = chance.mean(axis=0) if len(drives) else none
+    by_clock = clock.mean(axis=0) if len(drives) else none
     scored = tuple(
-        PlaceScore(location, len(drives), int(found[:, j].sum()), float(by_place[j]))
+        PlaceScore(
+            location, len(drives), int(found[:, j].sum()), float(by_place[j]), float(by_clock[j])
+        )
         for j, location in enumerate(locations)
     )
     return Scores(radius_m, scored, tuple(tallies), found)

@@ -31,6 +31,8 @@ class Tally:
         Marks at places that were found, but for the one that found it.
     expected : float
         How many designated places as many marks at random would have found.
+    by_clock : float
+        How many designated places as many marks by a clock would have found.
     length_m : float
         Metres driven.
     """
@@ -43,6 +45,7 @@ class Tally:
     found: int
     repeats: int
     expected: float
+    by_clock: float
     length_m: float
 
     @property
@@ -59,6 +62,11 @@ class Tally:
     def chance(self) -> float:
         """Recall of as many marks at random along the path."""
         return share(self.expected, self.designated)
+
+    @property
+    def clock(self) -> float:
+        """Recall of as many marks at equal intervals of time."""
+        return share(self.by_clock, self.designated)
 
     @property
     def corrected_recall(self) -> float:
@@ -93,6 +101,7 @@ class Tally:
             "low": low,
             "high": high,
             "chance": self.chance,
+            "clock": self.clock,
             "corrected_recall": self.corrected_recall,
             "precision": self.precision,
             "f": self.f,
@@ -105,4 +114,4 @@ def pooled(tallies: Iterable[Tally]) -> Tally:
     """Add tallies up: every run's places and marks count alike."""
     every = list(tallies)
     sums = {field.name: sum(getattr(one, field.name) for one in every) for field in fields(Tally)}
-    return Tally(**sums) if every else Tally(0, 0, 0, 0, 0, 0, 0, math.nan, 0.0)
+    return Tally(**sums) if every else Tally(0, 0, 0, 0, 0, 0, 0, math.nan, math.nan, 0.0)

@@ -27,6 +27,7 @@ COLUMNS = [
     "low",
     "high",
     "chance",
+    "clock",
     "published",
 ]
 DEFINITIONS = {
@@ -37,6 +38,8 @@ DEFINITIONS = {
     "low, high": "Wilson score interval at the level stated",
     "chance": "recall of as many marks at random along the driven path, uniform by length; mean "
     "of the draws",
+    "clock": "recall of as many marks at equal intervals of time, from a random moment on; mean of "
+    "the draws",
     "corrected_recall": "(recall - chance) / (1 - chance)",
     "precision": "marks within the radius of an earlier one are merged; share of what is left "
     "that lies at a labelled place of any kind, one to one, within the radius",
@@ -103,6 +106,7 @@ def location_rows(made: FolderScores) -> list[dict[str, Any]]:
                 "low": low,
                 "high": high,
                 "chance": place.chance,
+                "clock": place.clock,
                 "published": made.published.get(location.id),
             }
         )

@@ -47,7 +47,7 @@ def _figures(made: FolderScores) -> list[tuple[str, str, str]]:
         ("recall", percent_text(pooled.recall),
          f"{interval_text(pooled.interval)}; {pooled.found} of {pooled.designated}"),
         ("by chance", percent_text(pooled.chance), "as many marks at random"),
-        ("above chance", percent_text(pooled.corrected_recall), "(r − c) / (1 − c)"),
+        ("by a clock", percent_text(pooled.clock), "as many, evenly in time"),
         ("precision", percent_text(pooled.precision),
          f"{pooled.right} of {pooled.merged} marked places"),
         ("marks per 100 m", figure_text(pooled.marks_per_100_m, 1), "all runs"),
@@ -68,6 +68,7 @@ def _row(order: int, place: PlaceScore, published: float | None) -> list[tuple[s
         (percent_text(place.share), _sortable(place.share), "number"),
         (interval_text(place.interval), _sortable(place.interval[0]), "number"),
         (percent_text(place.chance), _sortable(place.chance), "number"),
+        (percent_text(place.clock), _sortable(place.clock), "number"),
         (shown, UNSORTED if published is None else published, "number"),
     ]
 

@@ -59,7 +59,8 @@ def draw_locations(results: Results) -> Drawing | None:
         f"In what share of {runs} runs each of {len(places)} locations was found",
         f"How often each designated location was marked within {results.scores.scores.radius_m:g} "
         f"m, in {runs} {'runs' if runs > 1 else 'run'}: dots with the Wilson 95 % interval. Grey "
-        "ticks: what as many marks would find if they were set at random along the same path."
+        "ticks: what as many marks would find if they were set at random along the same path; thin ones: "
+        "at equal intervals of time."
         f"{said}{rest} After the report's table 1.",
     )
 
@@ -87,6 +88,16 @@ def draw_chance(axes: Axes, row: float, chance: float, half: float = 0.3) -> Non
     axes.plot([100 * chance] * 2, [row - half, row + half], zorder=4, **chance_look())
 
 
+def draw_clock(axes: Axes, row: float, clock: float, half: float = 0.3) -> None:
+    """Draw a thin tick at what a clock would reach, per cent."""
+    axes.plot([100 * clock] * 2, [row - half, row + half], zorder=4, **clock_look())
+
+
+def clock_look() -> dict[str, Any]:
+    """Return how marks by a clock are drawn."""
+    return {"color": style.INK, "linewidth": 0.9, "linestyle": (0, (2, 1.2))}
+
+
 def ours_look(size: float) -> dict[str, Any]:
     """Return how our own share is drawn."""
     return {"marker": "o", "linestyle": "none", "markersize": size, "markerfacecolor": OURS,
@@ -98,6 +109,12 @@ def chance_look() -> dict[str, Any]:
     return {"color": style.MUTED, "linewidth": 2.2, "solid_capstyle": "butt"}
 
 
+def clock_handle() -> dict[str, Any]:
+    """Return a clock's tick for a legend."""
+    return {"marker": "|", "linestyle": "none", "markersize": 9, "markeredgewidth": 0.9,
+            "markeredgecolor": clock_look()["color"]}  # fmt: skip
+
+
 def _published_look() -> dict[str, Any]:
     return {"marker": "D", "linestyle": "none", "markersize": 6.4, "markerfacecolor": "none",
             "markeredgecolor": style.ACCENT, "markeredgewidth": 1.3}  # fmt: skip
@@ -105,6 +122,7 @@ def _published_look() -> dict[str, Any]:
 
 def _draw_row(axes: Axes, row: int, place: PlaceScore, published: float | None) -> None:
     draw_chance(axes, row, place.chance)
+    draw_clock(axes, row, place.clock)
     draw_interval(axes, row, place.share, place.interval)
     if published is not None:
         axes.plot(100 * published, row, zorder=6, **_published_look())
@@ -135,6 +153,7 @@ def _legend(scores: FolderScores, places: list[PlaceScore]) -> list[Any]:
     handles = [
         Line2D([], [], label="found, with 95 % interval", **ours),
         Line2D([], [], label="by chance", **tick),
+        Line2D([], [], label="by a clock", **clock_handle()),
     ]
     if any(place.location.id in scores.published for place in places):
         handles.append(Line2D([], [], label="published", **_published_look()))

@@ -19,6 +19,7 @@ FIGURES = (
     "low",
     "high",
     "chance",
+    "clock",
     "corrected_recall",
     "precision",
     "marks_per_100_m",

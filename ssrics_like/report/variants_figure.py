@@ -9,7 +9,9 @@ from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.locations_figure import (
     chance_look,
+    clock_handle,
     draw_chance,
+    draw_clock,
     draw_interval,
     ours_look,
     share_axis,
@@ -80,6 +82,8 @@ def _draw_row(axes: Axes, variant: Variant, at: float, size: float) -> None:
     dense = size < style.FONT_PT
     if not math.isnan(figures["chance"]):
         draw_chance(axes, at, figures["chance"], 0.34)
+    if not math.isnan(figures["clock"]):
+        draw_clock(axes, at, figures["clock"], 0.34)
     draw_interval(
         axes, at, figures["recall"], (figures["low"], figures["high"]), 5.2 if dense else 6.5
     )
@@ -159,6 +163,7 @@ def _legend() -> list[Any]:
     return [
         Line2D([], [], label="recall, with 95 % interval", **recall),
         Line2D([], [], label="recall by chance", **tick),
+        Line2D([], [], label="by a clock", **clock_handle()),
         Line2D([], [], label="precision", **_precision_look(dense=False)),
     ]
 
@@ -168,8 +173,9 @@ def _caption(variants: Variants, rows: list[Variant], scored: int) -> str:
     by = f", grouped by {', '.join(variants.factors)}" if variants.factors else ""
     text = (
         f"Every variant in a row{by}: the share of designated locations found, over all runs, with "
-        "the Wilson 95 % interval; the tick is what as many marks at random along the path would "
-        "find. Recall right of its tick by little is worth little, however high. Squares are the "
+        "the Wilson 95 % interval; the broad tick is what as many marks at random along the path "
+        "would find, the thin one what they would find at equal intervals of time. Recall right of "
+        "its ticks by little is worth little, however high. Squares are the "
         "share of marked places at which something is labelled."
     )
     if variants.nearest is not None:

@@ -12,10 +12,11 @@ from ssrics_like.results.files import csv_text
 DISTANCE = "distance_to_published"
 UNSORTED = -math.inf
 """Sorts a dash below every figure."""
-AVERAGED = ("recall", "chance", "corrected_recall", "precision", "f", "marks_per_100_m")
+AVERAGED = ("recall", "chance", "clock", "corrected_recall", "precision", "f", "marks_per_100_m")
 HEADINGS = {
     "recall": "recall",
     "chance": "by chance",
+    "clock": "by a clock",
     "corrected_recall": "above chance",
     "precision": "precision",
     "f": "F",
