@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 from scipy import ndimage
 
-from ssrics_like.maps import load_building
+from ssrics_like.library import folder
+from ssrics_like.maps import is_plan, load_building
 from ssrics_like.scenarios.modules import load_robot
 from ssrics_like.world.building import Building
 from ssrics_like.world.buildings.generator import generate
@@ -71,6 +72,9 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()
     names = [*given.maps, *map(str, range(given.generated))]
+    if not names:
+        names = [str(path) for path in sorted((folder("scenarios") / "maps").glob("*.yaml"))
+                 if not is_plan(path)]  # fmt: skip
     jobs = [(name, seed) for name in names for seed in range(given.seeds)]
     print(
         "| building | runs | least coverage, % | least of connected free space, % | mean s "

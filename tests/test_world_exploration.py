@@ -175,3 +175,22 @@ def test_real_plans_with_their_furniture_are_seen(data_dir, name):
     drive = explored(grid, (start.x_m, start.y_m), load_robot("pioneer-dx"), 0, 3600.0)
     assert drive.ended == NO_FRONTIER
     assert drive.coverage >= 0.99
+
+
+@pytest.mark.parametrize("faults", [{}, {"dropout": 0.3}])
+def test_what_counts_as_seen_was_within_the_lasers_range(faults):
+    # A hall much larger than the laser's 2 m: its beams mostly come back empty.
+    grid = room(9.0, 7.0, walls=[(4.0, 3.0, 5.0, 4.0)])
+    laser = exact_laser(682, 240.0, range_max_m=2.0, **faults)
+    leg = Exploration()
+    drive = simulated(grid, exact_robot(laser), (1.0, 1.0), [leg], 1, None, 900.0)
+    rows, columns = grid.cells.shape
+    y, x = (np.indices((rows, columns)) + 0.5) * grid.cell_m
+    near = np.zeros((rows, columns), bool)
+    for observation in drive:
+        pose = observation.true_pose
+        near |= np.hypot(x - pose.x_m, y - pose.y_m) < laser.range_max_m + grid.cell_m
+    known = drive.navigator.explored.evidence != 0
+    assert not (known & ~near).any()
+    assert drive.ended == NO_FRONTIER
+    assert drive.coverage >= 0.99

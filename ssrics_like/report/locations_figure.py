@@ -59,8 +59,8 @@ def draw_locations(results: Results) -> Drawing | None:
         f"In what share of {runs} runs each of {len(places)} locations was found",
         f"How often each designated location was marked within {results.scores.scores.radius_m:g} "
         f"m, in {runs} {'runs' if runs > 1 else 'run'}: dots with the Wilson 95 % interval. Grey "
-        "ticks: what as many marks would find if they were set at random along the same path; thin ones: "
-        "at equal intervals of time."
+        "ticks: what as many marks would find if they were set at random along the same path; thin "
+        "ones: at equal intervals of time."
         f"{said}{rest} After the report's table 1.",
     )
 

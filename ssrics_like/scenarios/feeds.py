@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any, Protocol
 
@@ -220,8 +221,12 @@ def _added(place: Place, grid: GridMap) -> dict[str, Any]:
     added = grid.solid & ~place.building.grid.solid
     for door in place.doors:
         added |= door.leaf
-    middles = (np.argwhere(added)[:, ::-1] + 0.5) * grid.cell_m
-    cells = np.floor(grid.points_in_map(middles) / grid.cell_m).astype(np.int64)
+    # Where the map is turned, cells do not cover cells: several points of each leave no gaps.
+    within = np.array([0.5] if math.remainder(grid.origin.theta_rad, math.pi / 2) == 0.0
+                      else [0.1, 0.5, 0.9])  # fmt: skip
+    offsets = np.array([(dx, dy) for dx in within for dy in within])
+    places = (np.argwhere(added)[:, np.newaxis, ::-1] + offsets).reshape(-1, 2) * grid.cell_m
+    cells = np.unique(np.floor(grid.points_in_map(places) / grid.cell_m).astype(np.int64), axis=0)
     return {"cell_m": grid.cell_m, "x": cells[:, 0].tolist(), "y": cells[:, 1].tolist()}
 
 
