@@ -335,6 +335,13 @@ def test_variants_are_written_down(varied):
         )
 
 
+def test_variants_are_checked_together(varied):
+    from ssrics_like.scenarios.checking import check_file
+
+    _, each, out, _ = varied
+    assert check_file(out) == f"results of {len(each)} variants"
+
+
 def test_variants_with_the_same_drives_share_them(varied):
     _, each, _, calls = varied
     keys = {variant.name: drive_key(resolved) for variant, resolved in each}

@@ -21,7 +21,7 @@ from ssrics_like.results.checking import check_results
 from ssrics_like.scenarios.feeds import open_source
 from ssrics_like.scenarios.resolving import load_resolved
 from ssrics_like.scenarios.schema import Scenario, read_scenario
-from ssrics_like.scenarios.variants import resolve_variants
+from ssrics_like.scenarios.variants import VARIANTS, resolve_variants
 from ssrics_like.sources import open_log
 from ssrics_like.world.robot import RobotProfile
 
@@ -41,6 +41,12 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
     SettingsError, RuleError, LibraryError, MapError, SourceError, ResultsError
         What is wrong with it.
     """
+    if (path / VARIANTS).is_file():
+        folders = sorted(manifest.parent for manifest in path.glob("*/manifest.json"))
+        for done, folder in enumerate(folders, 1):
+            check_results(folder)
+            progress(done / len(folders))
+        return f"results of {len(folders)} variants"
     if path.is_dir():
         manifest = check_results(path)
         return f"results of {len(manifest['runs'])} run(s), frame {manifest['frame']}"
