@@ -311,15 +311,19 @@ def test_a_killed_run_leaves_no_half_written_table(tmp_path):
     out = tmp_path / "out"
     code = (
         "import sys; from ssrics_like.cli import main; "
-        f"main(['replay', {str(DEMO)!r}, '-o', {str(out)!r}, '--runs', '200', '-q'])"
+        f"main(['replay', {str(DEMO)!r}, '-o', {str(out)!r}, '--runs', '200', '--jobs', '2', '-q'])"
     )
-    process = subprocess.Popen([sys.executable, "-c", code])
+    process = subprocess.Popen([sys.executable, "-c", code], start_new_session=True)
     deadline = time.monotonic() + 60
     while not (out / "manifest.json").exists() and time.monotonic() < deadline:
         time.sleep(0.05)
     time.sleep(0.3)
     os.kill(process.pid, signal.SIGKILL)
     process.wait()
+    with pytest.raises(ProcessLookupError):  # its workers end, too
+        while time.monotonic() < deadline:
+            os.killpg(process.pid, 0)
+            time.sleep(0.05)
     manifest = read_manifest(out)
     assert 0 < len(manifest["runs"]) < 200
     for name in COLUMNS:

@@ -7,8 +7,10 @@ way, a task's result depends on nothing but the task.
 from __future__ import annotations
 
 import multiprocessing
+import multiprocessing.connection
 import os
 import signal
+import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -86,7 +88,7 @@ def over_processes(function: Callable[[Path], object], paths: Sequence[Path], jo
         return
     context = multiprocessing.get_context("forkserver")
     with ProcessPoolExecutor(
-        min(jobs, len(paths)), mp_context=context, initializer=_leave_ctrl_c
+        min(jobs, len(paths)), mp_context=context, initializer=_prepare
     ) as pool:
         for _ in pool.map(function, paths):
             pass
@@ -116,15 +118,24 @@ class _Stopped(BaseException):
     """The command is being ended; nobody waits for this task any more."""
 
 
-def _leave_ctrl_c() -> None:
-    """Ctrl-C reaches all processes, but is the first one's to handle."""
+def _prepare() -> None:
+    """Prepare a worker: Ctrl-C is the first process's to handle, and without that it ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """Wait for the first process to end; killed, it cannot send its workers home."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        multiprocessing.connection.wait([parent.sentinel])
+        os._exit(1)
 
 
 def _begin(shares: Any, stop: Any) -> None:
-    """Prepare a worker."""
+    """Prepare a worker that reports how far it is."""
     global _shares, _stop
-    _leave_ctrl_c()
+    _prepare()
     _shares, _stop = shares, stop
 
 
