@@ -393,7 +393,7 @@ def test_two_variants_of_one_name_are_refused():
             variants(**more)
 
 
-@pytest.mark.parametrize("level", ["a/b", "../a", "/tmp/a", "..", "", "a\nb", ".hidden"])
+@pytest.mark.parametrize("level", ["a/b", "../a", "/a", "..", "", "a\nb", ".hidden"])
 def test_levels_that_name_no_folder_are_refused(level):
     with pytest.raises(SettingsError, match="cannot name a folder"):
         variants(factors={"f": {level: {}}})
