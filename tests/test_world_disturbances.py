@@ -348,3 +348,16 @@ def test_being_carried_off_is_no_try_at_the_frontier_that_it_drove_to():
     assert tries[4.9] == tries[5.5]
     assert drive.ended == "no frontier left"
     assert drive.coverage >= 0.99
+
+
+def test_a_door_whose_time_to_open_comes_while_it_waits_stays_open():
+    leaf = door_leaf(two_rooms(), *DOOR)
+    changes = (DoorChange(1.0, leaf, closed=True), DoorChange(2.0, leaf, closed=False))
+    drive = simulated(
+        two_rooms(), exact_robot(), (*DOOR, 0.0),
+        [Wait(4.0), Along(line(DOOR, (5.0, 1.5))), Wait(1.0)],
+        disturbances=Disturbances(doors=changes),
+    )  # fmt: skip
+    for _ in drive:
+        pass
+    assert not drive._solid[leaf].any()

@@ -9,7 +9,7 @@ import numpy as np
 
 from ssrics_like.perception.observation import Observation, Pose
 from ssrics_like.world import motion_kernels
-from ssrics_like.world.disturbances import Disturbances, Slip
+from ssrics_like.world.disturbances import Disturbances, DoorChange, Slip
 from ssrics_like.world.grid import GridMap
 from ssrics_like.world.laser import Laser, leaps
 from ssrics_like.world.navigation import Navigator
@@ -213,10 +213,12 @@ class Simulation:
             self.navigator.forget_place()
 
     def _open_doors(self, at_s: float) -> None:
-        waiting = []
+        waiting: list[DoorChange] = []
         changed = False
         for door in self._doors:
-            if door.at_s > at_s or (door.closed and self._is_occupied(door.leaf)):
+            # What a door has still to do comes in its order.
+            later = any(np.array_equal(other.leaf, door.leaf) for other in waiting)
+            if later or door.at_s > at_s or (door.closed and self._is_occupied(door.leaf)):
                 waiting.append(door)
             else:
                 changed = True
