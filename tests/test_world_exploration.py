@@ -102,6 +102,33 @@ def test_a_closed_door_is_a_wall_and_one_that_closes_on_the_way_ends_the_search(
     assert 0.45 < late.coverage < 0.65
 
 
+def test_somebody_who_stands_in_the_doorway_for_a_while_does_not_end_the_search():
+    drive = simulated(
+        two_rooms(), exact_robot(), (1.0, 1.5, math.pi), [Exploration()],
+        disturbances=Disturbances(crowd=Crowd(1, speed_m_s=0.0)),
+    )  # fmt: skip
+    for observation in drive:
+        drive._people.discs[0, :2] = DOOR if observation.t_s < 5.0 else (0.4, 2.6)
+    assert drive.ended == NO_FRONTIER
+    assert drive.coverage >= 0.99
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_people_hide_nothing_for_good(seed):
+    drive = explored(offices(), (1.5, 1.0), exact_robot(), seed, crowd=Crowd(2))
+    assert drive.ended == NO_FRONTIER
+    assert drive.coverage >= 0.99
+
+
+@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("width_m", [0.6, 0.65])
+def test_a_lane_that_the_body_just_fits_into_is_looked_into(width_m, seed):
+    grid = room(6.0, 6.0, walls=[(0.0, 0.0, 3.0, 3.6), (3.0, 2.0, 5.9 - width_m, 4.9)])
+    drive = explored(grid, (1.0, 4.8, 0.5 * seed), exact_robot(exact_laser(360, 360.0)), seed)
+    assert drive.ended == NO_FRONTIER
+    assert drive.coverage >= 0.99
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_a_short_sighted_laser_sees_all_too_and_through_no_wall(seed):
     # Two halls of 10 x 10 m, a wall of half a metre and a gate between them; it sees 4 m.

@@ -140,7 +140,13 @@ def test_the_path_is_as_long_as_the_steps_of_the_body():
     assert drive.t_s == pytest.approx((len(places) - 1) / 10.0)
 
 
-@pytest.mark.parametrize("limit_s", [0.05, 0.1, 2.0, 3.33])
+def test_without_a_journey_there_is_one_scan():
+    drive = simulated(OFFICES, PIONEER, (1.5, 1.0), [])
+    assert len(list(drive)) == 1
+    assert drive.ended == "end of an empty journey"
+
+
+@pytest.mark.parametrize("limit_s", [0.05, 0.1, 0.3, 0.7, 1.5, 2.0, 3.33])
 def test_no_scan_is_later_than_the_time_limit(limit_s):
     drive = simulated(OFFICES, PIONEER, (1.5, 1.0), [Wait(100.0)], time_limit_s=limit_s)
     times = [o.t_s for o in drive]

@@ -72,7 +72,7 @@ class SlipSettings:
     Attributes
     ----------
     per_m : float
-        How many such stretches begin in a metre, on average.
+        How many such stretches begin in a metre driven without slip, on average.
     length_m : float
         How long each is, as the wheels count it.
     share : float

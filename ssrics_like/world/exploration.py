@@ -30,7 +30,9 @@ TRIES = 2  # a frontier that was gone to in vain so often is left
 SET_ASIDE_M = 0.5  # what is left, around where the robot looked
 HOLD_S = 0.5  # between choices, or the robot could waver
 CHECK_S = 0.5  # between looks at whether the way is still open
-FORGETS = 3  # how often it looks again behind what has come to stand in the way
+FORGETS = 10  # how often it looks again behind what has come to stand in the way
+PATIENCE_S = 10.0  # for a way to open, before what is left is given up
+RETRY_S = 1.0
 LOOKS = 2  # scans taken at a frontier; if the next still shows it, it is set aside
 
 
@@ -47,6 +49,8 @@ class Exploration:
         self._checked_s = 0.0
         self._looks = 0
         self._forgets = 0
+        self._left = False
+        self._waiting_s: float | None = None
 
     def begin(self, navigator: Navigator, t_s: float) -> None:
         """Make room for planning."""
@@ -60,6 +64,8 @@ class Exploration:
     def next(self, navigator: Navigator, t_s: float, *, stuck: bool) -> Errand | None:
         """Go on to the frontier, or choose another."""
         errand = navigator.errand
+        if self._waiting_s is not None and t_s - self._checked_s < RETRY_S:
+            return errand
         if self._target is None or navigator.moved_away:
             return self._choose(navigator, t_s)
         if not self._is_frontier(navigator, self._target):
@@ -87,25 +93,42 @@ class Exploration:
         return self._choose(navigator, t_s)
 
     def _choose(self, navigator: Navigator, t_s: float) -> Errand | None:
-        """Plan the way to the nearest frontier; if there is none, past what may have gone again."""
+        """Plan the way to the nearest frontier; where none leads to any, wait, give up in the end.
+
+        What stands where it was free before may have gone again, unseen: the robot looks there
+        first. Somebody who stands in the only doorway may go soon.
+        """
+        self._checked_s = t_s
         errand = self._nearest(navigator, t_s)
-        while errand is None and self._forgets < FORGETS and navigator.explored.forget_moved():
+        if errand is None and self._forgets < FORGETS and navigator.explored.forget_moved():
             self._forgets += 1
             errand = self._nearest(navigator, t_s)
+        if errand is not None:
+            self._waiting_s = None
+        elif self._left:
+            if self._waiting_s is None:
+                self._waiting_s = t_s
+            if t_s - self._waiting_s < PATIENCE_S:
+                return Errand()
         return errand
 
     def _nearest(self, navigator: Navigator, t_s: float) -> Errand | None:
-        """Plan the way to the nearest frontier, those never tried before first."""
+        """Plan the way to the nearest frontier, those never tried before first.
+
+        What was looked at in vain is looked at from as near as the body gets, then from anywhere.
+        """
         grid, cell_m = navigator.explored, navigator.cell_m
         least, peek = round(LEAST_M / cell_m), round(PEEK_M / cell_m)
         costs = grid.costs()
-        for tries in range(1, TRIES + 1):
-            if not frontier_kernels.frontier_goals(
-                grid.evidence, self._tried, tries, least, peek, self._goals
-            ):
+        # At first it looks from where it can turn at ease.
+        for tries, near, dearest in ((1, peek, TIGHT), (TRIES, 1, SQUEEZE), (TRIES, peek, SQUEEZE)):
+            self._left = bool(
+                frontier_kernels.frontier_goals(
+                    grid.evidence, self._tried, tries, least, near, self._goals
+                )
+            )
+            if not self._left:
                 continue
-            # At first it looks from where it can turn at ease.
-            dearest = TIGHT if tries == 1 else SQUEEZE
             goal = way_kernels.spread(
                 costs, self._goals, navigator.cell(), dearest, self._distance, self._parent
             )

@@ -107,7 +107,7 @@ class RobotProfile(_Strict):
     speed_m_s, turn_rad_s : float
         Most that it drives and turns.
     acceleration_m_s2, turn_acceleration_rad_s2 : float
-        Most that these change, up or down.
+        Most that these rise; the robot brakes twice as hard.
     actuation : float
         Standard deviation of the random factors by which its wheels miss the commanded speeds.
     odometry : OdometryProfile

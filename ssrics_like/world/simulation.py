@@ -155,9 +155,11 @@ class Simulation:
             )
             self.navigator.look(self.t_s, pose, sensor, scan)
             if self.navigator.finished:
-                self.ended = self.navigator.legs[-1].ending
+                legs = self.navigator.legs
+                self.ended = legs[-1].ending if legs else "end of an empty journey"
                 return
-            if self.t_s + period_s > self.time_limit_s:
+            # A scan at the limit itself is still taken, however its time was rounded.
+            if (index + 1) * period_s > self.time_limit_s + 1e-9:
                 self.ended = f"time limit of {self.time_limit_s:g} s"
                 return
             self._move(period_s)
