@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ssrics_like.comparison.agreement import consistency
-from ssrics_like.comparison.chance import clock_marks, mean_by_chance, random_marks
-from ssrics_like.comparison.matching import match
+from ssrics_like.comparison.drive import Drive, Marks, Passages
 from ssrics_like.comparison.proportions import chance_corrected, harmonic_mean, wilson
-from ssrics_like.comparison.scores import Drive, score_runs
+from ssrics_like.comparison.scores import score_runs
+from ssrics_like.comparison.way import Way
 from ssrics_like.world.locations import Location
 
 
@@ -65,60 +65,6 @@ def test_consistency_is_one_for_equal_runs_and_nothing_for_a_single_one():
     assert math.isnan(consistency(np.zeros((3, 0))))
 
 
-def random_marks_by_walking(path, distances):
-    """Walk along the path to each distance, a leg at a time."""
-    places = []
-    for distance in distances:
-        left = distance
-        for a, b in itertools.pairwise(path):
-            length = math.dist(a, b)
-            if length > 5.0:
-                continue
-            if left < length:
-                share = left / length
-                places.append([u + share * (v - u) for u, v in zip(a, b, strict=True)])
-                break
-            left -= length
-    return places
-
-
-def test_random_marks_lie_where_walking_leads():
-    # A turn on the spot, and a stretch of 30 m over which the robot was carried.
-    path = [(0, 0), (3, 0), (3, 0), (3, 4), (33, 4), (33, 6), (32, 6)]
-    marks = random_marks(path, 500, np.random.default_rng(1))
-    distances = np.random.default_rng(1).uniform(0.0, 10.0, 500)
-    np.testing.assert_allclose(marks, random_marks_by_walking(path, distances), atol=1e-9)
-
-
-def test_marks_of_a_robot_that_stood_still_lie_where_it_stood():
-    assert random_marks([(2, 3)], 4, np.random.default_rng(0)).tolist() == [[2, 3]] * 4
-    assert random_marks([(2, 3)] * 3, 4, np.random.default_rng(0)).tolist() == [[2, 3]] * 4
-
-
-@pytest.mark.parametrize("aside_m", [0.0, 0.6])
-@pytest.mark.parametrize("count", [1, 7])
-def test_chance_on_a_straight_path_has_its_closed_form(aside_m, count):
-    # Within 1 m of a place that lies aside is a chord of the path; each mark hits it with
-    # p = 2 sqrt(1 - aside^2) / length, and n marks find the place with 1 - (1 - p)^n.
-    p = 2 * math.sqrt(1 - aside_m**2) / 40
-    expected = 1 - (1 - p) ** count
-    draws = 20_000
-    chance = mean_by_chance(
-        [(x, 0) for x in range(41)],
-        count,
-        lambda marks: match(marks, [(15, aside_m)], 1.0) >= 0,
-        np.random.default_rng(3),
-        draws,
-    )
-    tolerance = 4 * math.sqrt(expected * (1 - expected) / draws)
-    assert chance == pytest.approx([expected], abs=tolerance)
-
-
-def test_chance_without_a_path_is_not_known():
-    chance = mean_by_chance([], 3, lambda _: np.zeros(2), np.random.default_rng(0))
-    assert np.isnan(chance).tolist() == [True, True]
-
-
 STRAIGHT = np.column_stack([np.linspace(0, 50, 501), np.zeros(501)])
 PLACES = (
     Location("1", 10.0, 0.0),
@@ -129,8 +75,10 @@ PLACES = (
 )
 
 
-def drive(*xs, path=STRAIGHT, length_m=50.0):
-    return Drive(np.array([(x, 0.0) for x in xs]).reshape(-1, 2), path, length_m)
+def drive(*xs, path=STRAIGHT, passages=None, late_m=0.0):
+    # On a straight path from 0 a place's x is the metres driven up to it.
+    marks = Marks.of([(x, 0.0) for x in xs], xs, [x + late_m for x in xs])
+    return Drive(Way.through(path), marks, passages)
 
 
 def test_two_runs_counted_by_hand():
@@ -155,7 +103,8 @@ def test_two_runs_counted_by_hand():
     assert both.precision == pytest.approx(4 / 5)
     assert both.marks_per_100_m == pytest.approx(7.0)
     assert both.duplicates == pytest.approx(2 / 3)
-    assert both.f == pytest.approx(2 * 0.5 * 0.8 / 1.3)
+    assert both.f_place == pytest.approx(2 * 0.5 * 0.8 / 1.3)
+    assert math.isnan(both.f)  # no passages are known
     assert both.interval == wilson(3, 6)
     # They agree about doorways 1 and 3.
     assert scores.consistency == pytest.approx(2 / 3)
@@ -187,8 +136,8 @@ def test_equal_generators_give_equal_scores():
         ([drive()], PLACES),
         ([drive(1.0)], ()),
         ([drive(1.0)], PLACES[3:]),
-        ([drive(1.0, path=STRAIGHT[:1], length_m=0.0)], PLACES),
-        ([drive(1.0, path=STRAIGHT[:0], length_m=0.0)], PLACES),
+        ([drive(1.0, path=STRAIGHT[:1])], PLACES),
+        ([drive(1.0, path=STRAIGHT[:0])], PLACES),
     ],
 )  # fmt: skip
 def test_what_cannot_be_said_is_nan(drives, locations):
@@ -204,21 +153,124 @@ def test_what_cannot_be_said_is_nan(drives, locations):
         assert math.isnan(value) or 0 <= value <= 100
 
 
-@pytest.mark.parametrize(
-    ("marks", "expected"), [(1, 0.02), (10, 0.2), (40, 0.8), (50, 1.0), (80, 1.0)]
-)
-def test_a_clock_finds_a_place_as_often_as_the_closed_form_says(marks, expected):
-    # 100 m at a constant speed, m marks 100 / m apart, a window of 2 m: min(1, 2 m / 100).
-    path = np.column_stack([np.linspace(0.0, 100.0, 10_001), np.zeros(10_001)])
-    share = mean_by_chance(
-        path, marks, lambda drawn: [match(drawn, [(50.0, 0.0)], 1.0)[0] >= 0],
-        np.random.default_rng(1), 4000, clock_marks,
+def test_passages_counted_by_hand():
+    # There through doorways 1 and 2, back through 2, and through the opening, which is none.
+    # Marks at 9 and 10.5 m compete for one passage; the one at 20.4 m is too far along from 22.
+    passages = Passages.of([4, 0, 1, 1], [30.0, 10.0, 20.0, 22.0])
+    run = drive(9.0, 10.5, 20.4, 30.0, 46.0, passages=passages, late_m=1.5)
+    scores = score_runs([run], PLACES, 1.0, np.random.default_rng(0))
+    (outcome,) = scores.outcomes
+    assert outcome.passages.along_m.tolist() == [10.0, 20.0, 22.0]
+    assert outcome.passage_mark.tolist() == [1, 2, -1]
+    tally = scores.pooled
+    assert (tally.passages, tally.passed) == (3, 2)
+    assert tally.pass_recall == pytest.approx(2 / 3)
+    # 9 and 10.5 are further than 1 m apart: five groups; at doorways 1 and 2 or the junction and
+    # the opening: three are right, for the second at doorway 1 finds it taken.
+    assert (tally.merged, tally.right) == (5, 3)
+    assert tally.f == pytest.approx(2 * (2 / 3) * 0.6 / (2 / 3 + 0.6))
+    assert tally.f_place == pytest.approx(2 * (2 / 3) * 0.6 / (2 / 3 + 0.6))
+    assert tally.delay_m == pytest.approx(1.5)
+    assert outcome.fates() == ["false", "hit", "hit", "other", "false"]
+
+
+def test_one_mark_between_two_passages_finds_one_of_them():
+    run = drive(10.5, passages=Passages.of([0, 0], [10.0, 11.0]))
+    tally = score_runs([run], PLACES, 1.0, np.random.default_rng(0)).pooled
+    assert (tally.passages, tally.passed) == (2, 1)
+
+
+def test_a_place_is_found_from_beside_it_but_not_its_passage():
+    # The path comes back past doorway 1 in the next room, 0.8 m aside, 20 m further on.
+    way = Way.through([(x, 0) for x in range(21)] + [(x, 0.8) for x in range(20, -1, -1)])
+    run = Drive(way, Marks.on(way, [30.8]), Passages.of([0], [10.0]))
+    tally = score_runs([run], PLACES[:1], 1.0, np.random.default_rng(0)).pooled
+    assert (tally.found, tally.passed) == (1, 0)
+
+
+def test_what_a_mark_is_when_it_repeats():
+    # Three at doorway 1, the first of which lies farthest; two where nothing is.
+    run = drive(9.1, 9.9, 10.1, 35.0, 35.5)
+    (outcome,) = score_runs([run], PLACES, 1.0, np.random.default_rng(0)).outcomes
+    assert outcome.fates() == ["repeat", "hit", "repeat", "false", "repeat"]
+    assert outcome.group.tolist() == [0, 0, 0, 1, 1]
+    assert outcome.group_place.tolist() == [0, -1]
+
+
+def test_who_says_what_is_designated_is_heard():
+    scores = score_runs(
+        [drive(9.8, 30.0)], PLACES, 1.0, np.random.default_rng(0),
+        designated=[False, False, False, False, True],
     )  # fmt: skip
-    assert share[0] == pytest.approx(expected, abs=0.03)
+    assert (scores.pooled.designated, scores.pooled.found) == (1, 1)
+    assert [place.designated for place in scores.places] == [False] * 4 + [True]
 
 
-def test_a_clock_marks_at_equal_intervals():
-    path = np.column_stack([np.arange(100.0), np.zeros(100)])
-    x = clock_marks(path, 10, np.random.default_rng(3))[:, 0]
-    assert np.array_equal(np.diff(x), np.full(9, 10.0))
-    assert len(clock_marks(path, 0, np.random.default_rng(3))) == 0
+def test_the_f_of_chance_and_of_a_clock_follow_closed_forms():
+    # One mark on 50 m; each of two places 10 m apart has a window of 2 m: precision 2 * 2/50, and
+    # each of two passages is found with p = 2/50, whether at random or by a clock.
+    run = drive(1.0, passages=Passages.of([0, 1], [10.0, 20.0]))
+    pooled = score_runs([run], PLACES[:2], 1.0, np.random.default_rng(8), 20_000).pooled
+    p = 2 / 50
+    for name in ("chance", "clock"):
+        figures = pooled.figures()
+        assert figures[f"pass_{name}"] == pytest.approx(p, abs=0.005)
+        assert figures[f"precision_{name}"] == pytest.approx(2 * p, abs=0.008)
+        assert figures[f"f_{name}"] == pytest.approx(2 * p * 2 * p / (3 * p), abs=0.006)
+        assert figures[f"f_place_{name}"] == pytest.approx(2 * p * 2 * p / (3 * p), abs=0.006)
+
+
+METRES = st.integers(0, 100).map(lambda n: n / 2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(METRES, max_size=8), st.lists(METRES, max_size=6),
+       st.sampled_from([0.5, 1.0, 2.0, 5.0]), st.integers(0, 2**31))  # fmt: skip
+def test_every_share_lies_between_0_and_1(xs, crossed, radius_m, seed):
+    run = drive(*sorted(xs), passages=Passages.of(np.arange(len(crossed)) % 3, crossed))
+    tally = score_runs([run], PLACES, radius_m, np.random.default_rng(seed), 20).pooled
+    for name, value in tally.figures().items():
+        if not name.startswith(("corrected", "marks", "duplicates", "delay")):
+            assert math.isnan(value) or 0 <= value <= 1, name
+    assert tally.passed <= min(tally.passages, tally.marks)
+    assert tally.right <= tally.merged <= tally.marks
+    assert math.isnan(tally.f) == (not xs or not crossed)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(METRES, max_size=6), st.lists(METRES, max_size=5), st.permutations(range(5)))
+def test_the_order_of_places_and_passages_does_not_matter(xs, crossed, order):
+    passages = [(i % 3, along) for i, along in enumerate(crossed)]
+    new = {old: i for i, old in enumerate(order)}
+    shuffled = [(new[place], along) for place, along in reversed(passages)]
+    tallies = []
+    for through, places in ((passages, PLACES), (shuffled, [PLACES[i] for i in order])):
+        known = Passages.of([p for p, _ in through], [along for _, along in through])
+        run = drive(*sorted(xs), passages=known)
+        tallies.append(score_runs([run], places, 1.0, np.random.default_rng(1), 5).pooled)
+    one, other = tallies
+    for name, value in one.figures().items():
+        assert other.figures()[name] == pytest.approx(value, nan_ok=True), name
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.lists(METRES, max_size=5), min_size=1, max_size=4), st.data())
+def test_the_order_of_runs_does_not_matter(each, data):
+    runs = [drive(*sorted(xs), passages=Passages.of([0, 2], [10.0, 40.0])) for xs in each]
+    mixed = data.draw(st.permutations(runs))
+    one, other = (
+        score_runs(some, PLACES, 1.0, np.random.default_rng(0), 1) for some in (runs, mixed)
+    )
+    assert one.consistency == pytest.approx(other.consistency, nan_ok=True)
+    for name in ("recall", "pass_recall", "precision", "f", "f_place", "duplicates"):
+        same = other.pooled.figures()[name]
+        assert one.pooled.figures()[name] == pytest.approx(same, nan_ok=True), name
+
+
+def test_columns_of_unequal_length_are_refused():
+    with pytest.raises(ValueError, match=r"along_m has shape \(1,\), expected \(2,\)"):
+        Marks.of([(0, 0), (1, 0)], [0.0])
+    with pytest.raises(ValueError, match=r"decided_m has shape \(3,\), expected \(2,\)"):
+        Marks.on(Way.through(STRAIGHT), [0.0, 1.0], [0.0, 1.0, 2.0])
+    with pytest.raises(ValueError, match=r"along_m has shape \(0,\), expected \(1,\)"):
+        Passages.of([0])

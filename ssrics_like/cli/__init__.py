@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 import ssrics_like
-from ssrics_like.cli import check, library, maps, replay, report, run, schema
+from ssrics_like.cli import check, compare, library, maps, replay, report, run, schema
 from ssrics_like.errors import SsricsError
 
 USER_ERROR = 1
@@ -36,6 +36,7 @@ ssrics COMMAND --help tells more.""",
 app.command(replay.replay, help_epilogue="")
 app.command(run.run, help_epilogue="")
 app.command(check.check, help_epilogue="")
+app.command(compare.compare, help_epilogue="")
 app.command(library.list_entries, name="list", help_epilogue="")
 app.command(library.show, help_epilogue="")
 app.command(report.report, help_epilogue="")

@@ -19,6 +19,9 @@ Out = Annotated[Path | None, Parameter(name=["--out", "-o"])]
 NeededOut = Annotated[Path, Parameter(name=["--out", "-o"])]
 Pair = Annotated[tuple[float, float], Parameter(negative="")]
 Overrides = Annotated[tuple[str, ...], Parameter(name="--set", negative="", consume_multiple=False)]
+Radii = Annotated[
+    tuple[str, ...], Parameter(negative="", consume_multiple=False, show_default=False)
+]
 Runs = Annotated[int | None, Parameter(name=["--runs", "-n"], converter=_whole)]
 Jobs = Annotated[
     int | None,

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ssrics_like.comparison.matching import points
-from ssrics_like.comparison.scores import Drive, Scores, score_runs
+from ssrics_like.comparison.driven import drives_on_map
+from ssrics_like.comparison.passages import thresholds
+from ssrics_like.comparison.scores import Scores, score_runs
 from ssrics_like.errors import ResultsError
 from ssrics_like.maps import load_building
 from ssrics_like.results.folder import read_manifest
 from ssrics_like.results.reading import read_records
-from ssrics_like.results.records import MARKS, Records, Run
+from ssrics_like.results.records import Records
 from ssrics_like.world.building import Building
 
 MAP = "map/map.yaml"
@@ -95,20 +96,32 @@ def score_records(records: Records, building: Building) -> FolderScores | None:
     if not building.locations:
         return None
     try:
-        seed = int(records.manifest["seed"])
         radius_m = float(records.scenario.get("match_radius_m", RADIUS_M))
         published = records.scenario.get("published") or {"source": "", "found": {}}
         source = str(published["source"])
         shares = {str(name): float(value) for name, value in published["found"].items()}
     except (KeyError, TypeError, ValueError, AttributeError) as e:
         raise ResultsError(f"{records.folder / 'manifest.json'}: is damaged: {e!r}") from None
-    generator = np.random.default_rng([seed, CHANCE_STREAM])
-    drives = [_drive(run) for run in records.runs]
-    scores = score_runs(drives, building.locations, radius_m, generator)
+    seed = seed_of(records)
+    drives = drives_on_map(records, thresholds(building.grid, building.locations))
+    scores = score_runs(drives, building.locations, radius_m, generator_of(seed))
     return FolderScores(scores, tuple(run.number for run in records.runs), seed, shares, source)
 
 
-def _drive(run: Run) -> Drive:
-    """Return a run's marks, at their true places where these are known, and its way."""
-    marks = sorted((r.t_s, r.x_m, r.y_m) for r in run.reflexes if r.decision in MARKS)
-    return Drive(points([mark[1:] for mark in marks]), run.path[:, 1:], run.length_m)
+def seed_of(records: Records) -> int:
+    """Return the seed of the marks that know nothing: the scenario's.
+
+    Raises
+    ------
+    ResultsError
+        The manifest is damaged.
+    """
+    try:
+        return int(records.manifest["seed"])
+    except (KeyError, TypeError, ValueError) as e:
+        raise ResultsError(f"{records.folder / 'manifest.json'}: is damaged: {e!r}") from None
+
+
+def generator_of(seed: int) -> np.random.Generator:
+    """Return the source of the marks that know nothing."""
+    return np.random.default_rng([seed, CHANCE_STREAM])

@@ -6,38 +6,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.spatial.distance import cdist
+from numpy.typing import ArrayLike, NDArray
 
 from ssrics_like.comparison.agreement import consistency
-from ssrics_like.comparison.chance import DRAWS, clock_marks, mean_by_chance
-from ssrics_like.comparison.matching import NONE, match, points
-from ssrics_like.comparison.merging import merge
+from ssrics_like.comparison.batches import merged, passages_found, places_found
+from ssrics_like.comparison.chance import DRAWS, clock_marks, random_marks
+from ssrics_like.comparison.drive import Drive
+from ssrics_like.comparison.matching import points
+from ssrics_like.comparison.outcome import Outcome, outcome_of
 from ssrics_like.comparison.proportions import share, wilson
-from ssrics_like.comparison.tally import Tally, pooled
+from ssrics_like.comparison.tally import Blind, Tally, pooled
+from ssrics_like.comparison.way import Way
 from ssrics_like.world.locations import Location
 
 DESIGNATED = "doorway"
 """The kind of place that people designated: "These locations, all doorways" (report, section 4)."""
-
-
-@dataclass(frozen=True, eq=False)
-class Drive:
-    """What is scored of one run.
-
-    Attributes
-    ----------
-    marks : ndarray, shape (n, 2)
-        Where something was marked, in order of time, metres.
-    path : ndarray, shape (poses, 2)
-        Where the robot was, metres.
-    length_m : float
-        Metres driven.
-    """
-
-    marks: NDArray[np.float64]
-    path: NDArray[np.float64]
-    length_m: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +31,8 @@ class PlaceScore:
     ----------
     location : Location
         The place.
+    designated : bool
+        Whether it is one that should be found.
     runs, found : int
         How many runs there were, and in how many it was found.
     chance : float
@@ -57,15 +42,11 @@ class PlaceScore:
     """
 
     location: Location
+    designated: bool
     runs: int
     found: int
     chance: float
     clock: float
-
-    @property
-    def designated(self) -> bool:
-        """Whether it is one that should be found."""
-        return self.location.kind == DESIGNATED
 
     @property
     def share(self) -> float:
@@ -90,19 +71,25 @@ class Scores:
         Every labelled place, in the order of the map.
     runs : tuple of Tally
         One a run.
-    found : ndarray of bool, shape (runs, places)
-        Which run found which place.
+    outcomes : tuple of Outcome
+        Which mark found what, one a run.
     """
 
     radius_m: float
     places: tuple[PlaceScore, ...]
     runs: tuple[Tally, ...]
-    found: NDArray[np.bool_]
+    outcomes: tuple[Outcome, ...]
 
     @property
     def pooled(self) -> Tally:
         """All runs together."""
         return pooled(self.runs)
+
+    @property
+    def found(self) -> NDArray[np.bool_]:
+        """Which run found which place, shape (runs, places)."""
+        rows = [outcome.found for outcome in self.outcomes]
+        return np.array(rows, bool).reshape(len(rows), len(self.places))
 
     @property
     def consistency(self) -> float:
@@ -116,12 +103,13 @@ def score_runs(
     radius_m: float,
     generator: np.random.Generator,
     draws: int = DRAWS,
+    designated: ArrayLike | None = None,
 ) -> Scores:
     """Score runs against labelled places.
 
-    Doorways are the designated places, which should be found; a mark at a labelled place of
-    another kind is no error, but finds none of them. Marks are matched to the doorways and to the
-    other places apart, so that a junction labelled beside a doorway does not take its mark.
+    A mark at a labelled place that is not designated is no error, but finds none that is. Marks
+    are matched to the designated places and to the others apart, so that a junction labelled
+    beside a doorway does not take its mark.
 
     Parameters
     ----------
@@ -130,65 +118,92 @@ def score_runs(
     locations : sequence of Location
         The places, in the frame of the marks.
     radius_m : float
-        A mark finds a place at most this far away.
+        How far from a place, or along the path from a passage, a mark still finds it.
     generator : numpy.random.Generator
-        Source of the marks at random.
+        Source of the marks that know nothing.
     draws : int
         How often they are drawn for each run.
+    designated : array_like of bool, shape (locations,), optional
+        Which places should be found; the doorways if left out.
     """
     places = points([(place.x_m, place.y_m) for place in locations])
-    designated = np.array([place.kind == DESIGNATED for place in locations], bool)
-
-    def found_by(marks: NDArray[np.float64]) -> NDArray[np.bool_]:
-        found = np.zeros(len(places), bool)
-        for group in (designated, ~designated):
-            found[group] = match(marks, places[group], radius_m) != NONE
-        return found
-
-    found = np.zeros((len(drives), len(places)), bool)
-    chance = np.zeros((len(drives), len(places)))
-    clock = np.zeros((len(drives), len(places)))
-    tallies = []
+    wanted = np.array(
+        [p.kind == DESIGNATED for p in locations] if designated is None else designated, bool
+    ).reshape(len(locations))
+    outcomes, tallies = [], []
+    chance, clock = np.zeros((2, len(drives), len(places)))
     for i, drive in enumerate(drives):
-        found[i] = found_by(drive.marks)
-        chance[i] = mean_by_chance(drive.path, len(drive.marks), found_by, generator, draws)
-        clock[i] = mean_by_chance(
-            drive.path, len(drive.marks), found_by, generator, draws, clock_marks
-        )
-        merged = merge(drive.marks, radius_m)
-        at_found = _marks_nearest(drive.marks, places[designated], radius_m)[found[i][designated]]
-        tallies.append(
-            Tally(
-                runs=1,
-                marks=len(drive.marks),
-                merged=len(merged),
-                right=int((match(merged, places, radius_m) != NONE).sum()),
-                designated=int(designated.sum()),
-                found=int(found[i][designated].sum()),
-                repeats=int(np.maximum(at_found - 1, 0).sum()),
-                expected=float(chance[i][designated].sum()),
-                by_clock=float(clock[i][designated].sum()),
-                length_m=drive.length_m,
-            )
-        )
+        outcome = outcome_of(drive, places, wanted, radius_m)
+        blind = []
+        for shares, placing in ((chance, random_marks), (clock, clock_marks)):
+            if len(drive.way.xy_m) == 0:
+                shares[i] = np.nan
+                blind.append(Blind())
+                continue
+            along = placing(drive.way, len(drive.marks), generator, draws)
+            shares[i], reached = _reached(drive.way, along, outcome, places, radius_m)
+            blind.append(reached)
+        outcomes.append(outcome)
+        tallies.append(_tally(drive, outcome, *blind))
     none = np.full(len(places), np.nan)
-    by_place = chance.mean(axis=0) if len(drives) else none
-    by_clock = clock.mean(axis=0) if len(drives) else none
+    by_chance, by_clock = (table.mean(axis=0) if len(drives) else none for table in (chance, clock))
+    found = sum((outcome.found.astype(int) for outcome in outcomes), np.zeros(len(places), int))
     scored = tuple(
         PlaceScore(
-            location, len(drives), int(found[:, j].sum()), float(by_place[j]), float(by_clock[j])
+            location, bool(wanted[j]), len(drives), int(found[j]),
+            float(by_chance[j]), float(by_clock[j]),
         )
         for j, location in enumerate(locations)
+    )  # fmt: skip
+    return Scores(radius_m, scored, tuple(tallies), tuple(outcomes))
+
+
+def _reached(
+    way: Way,
+    along_m: NDArray[np.float64],
+    outcome: Outcome,
+    places: NDArray[np.float64],
+    radius_m: float,
+) -> tuple[NDArray[np.float64], Blind]:
+    """Return how often marks on the way find each place, and what they reach on average.
+
+    `along_m` holds the metres driven up to each mark, shape (draws, marks), rising.
+    """
+    marks = way.at(along_m)
+    designated, passages = outcome.designated, outcome.passages
+    shares = np.zeros(len(places))
+    for kind in (designated, ~designated):
+        shares[kind] = places_found(marks, places[kind], radius_m).mean(axis=0)
+    passed = 0.0
+    if passages is not None:
+        passed = float(passages_found(along_m, passages.along_m, radius_m).mean())
+    groups = merged(marks, radius_m)
+    blind = Blind(
+        found=float(shares[designated].sum()),
+        passed=passed,
+        merged=float(np.isfinite(groups[..., 0]).sum(axis=1).mean()),
+        right=float(places_found(groups, places, radius_m).sum(axis=1).mean()),
     )
-    return Scores(radius_m, scored, tuple(tallies), found)
+    return shares, blind
 
 
-def _marks_nearest(
-    marks: NDArray[np.float64], places: NDArray[np.float64], radius_m: float
-) -> NDArray[np.int64]:
-    """Count for each place the marks within the radius that lie nearer to it than to another."""
-    if len(marks) == 0 or len(places) == 0:
-        return np.zeros(len(places), np.int64)
-    distances = cdist(marks, places)
-    nearest = distances.argmin(axis=1)[distances.min(axis=1) <= radius_m]
-    return np.bincount(nearest, minlength=len(places)).astype(np.int64)
+def _tally(drive: Drive, outcome: Outcome, at_random: Blind, by_clock: Blind) -> Tally:
+    """Count what a run found."""
+    delays = drive.marks.decided_m - drive.marks.along_m
+    known = np.isfinite(delays)
+    return Tally(
+        runs=1,
+        marks=len(drive.marks),
+        merged=len(outcome.group_place),
+        right=outcome.right,
+        designated=int(outcome.designated.sum()),
+        found=int(outcome.found[outcome.designated].sum()),
+        repeats=outcome.repeats,
+        passages=len(outcome.passed),
+        passed=int(outcome.passed.sum()),
+        length_m=drive.length_m,
+        timed=int(known.sum()),
+        delays_m=float(delays[known].sum()),
+        at_random=at_random,
+        by_clock=by_clock,
+    )

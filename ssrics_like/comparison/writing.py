@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from ssrics_like.comparison.chance import DRAWS
+from ssrics_like.comparison.definitions import DEFINITIONS
 from ssrics_like.comparison.folder import FolderScores, score_folder
 from ssrics_like.comparison.proportions import LEVEL
-from ssrics_like.comparison.scores import DESIGNATED
+from ssrics_like.comparison.scores import DESIGNATED, PlaceScore, Scores
 from ssrics_like.comparison.tally import Tally
 from ssrics_like.errors import ResultsError
 from ssrics_like.results.files import csv_text, json_text, write_atomically
@@ -30,26 +31,6 @@ COLUMNS = [
     "clock",
     "published",
 ]
-DEFINITIONS = {
-    "mark": "a reflex that was declared or recognised, at its true position where that is known",
-    "found": "a place is found by one mark at most, a mark finds one place at most, within the "
-    "radius; as many pairs as can be, and of these the shortest",
-    "recall": "designated places found, over all runs and designated places",
-    "low, high": "Wilson score interval at the level stated",
-    "chance": "recall of as many marks at random along the driven path, uniform by length; mean "
-    "of the draws",
-    "clock": "recall of as many marks at equal intervals of time, from a random moment on; mean of "
-    "the draws",
-    "corrected_recall": "(recall - chance) / (1 - chance)",
-    "precision": "marks within the radius of an earlier one are merged; share of what is left "
-    "that lies at a labelled place of any kind, one to one, within the radius",
-    "f": "harmonic mean of recall and precision",
-    "marks_per_100_m": "marks, repetitions included, per 100 m driven",
-    "duplicates": "marks at a designated place that was found, but for the one that found it, "
-    "per place found",
-    "consistency": "two runs agree about a designated place if both found it or both missed it; "
-    "mean share of agreement over all pairs of runs",
-}
 
 
 def write_scores(folder: Path) -> FolderScores | None:
@@ -90,27 +71,29 @@ def write_scores(folder: Path) -> FolderScores | None:
 
 def location_rows(made: FolderScores) -> list[dict[str, Any]]:
     """Return what is known of each labelled place, in the order of the map."""
-    rows = []
-    for place in made.scores.places:
-        location, (low, high) = place.location, place.interval
-        rows.append(
-            {
-                "location": location.id,
-                "kind": location.kind,
-                "label": location.label,
-                "x_m": location.x_m,
-                "y_m": location.y_m,
-                "runs": place.runs,
-                "found": place.found,
-                "share": place.share,
-                "low": low,
-                "high": high,
-                "chance": place.chance,
-                "clock": place.clock,
-                "published": made.published.get(location.id),
-            }
-        )
-    return rows
+    return [
+        place_row(place) | {"published": made.published.get(place.location.id)}
+        for place in made.scores.places
+    ]
+
+
+def place_row(place: PlaceScore) -> dict[str, Any]:
+    """Return what is known of a labelled place."""
+    location, (low, high) = place.location, place.interval
+    return {
+        "location": location.id,
+        "kind": location.kind,
+        "label": location.label,
+        "x_m": location.x_m,
+        "y_m": location.y_m,
+        "runs": place.runs,
+        "found": place.found,
+        "share": place.share,
+        "low": low,
+        "high": high,
+        "chance": place.chance,
+        "clock": place.clock,
+    }
 
 
 def as_data(made: FolderScores) -> dict[str, Any]:
@@ -126,20 +109,28 @@ def as_data(made: FolderScores) -> dict[str, Any]:
         "chance_seed": made.seed,
         "published_in": made.published_in,
         "definitions": DEFINITIONS,
-        "pooled": {
-            "runs": len(scores.runs),
-            **_counted(scores.pooled),
-            "consistency": scores.consistency,
-        },
-        "runs": [
-            {"run": number, **_counted(one)}
-            for number, one in zip(made.numbers, scores.runs, strict=True)
-        ],
+        **run_figures(scores, made.numbers),
         "locations": location_rows(made),
     }
 
 
-def _counted(tally: Tally) -> dict[str, Any]:
+def run_figures(scores: Scores, numbers: tuple[int, ...]) -> dict[str, Any]:
+    """Return counts and figures of all runs together, and of each by its number."""
+    return {
+        "pooled": {
+            "runs": len(scores.runs),
+            **counted(scores.pooled),
+            "consistency": scores.consistency,
+        },
+        "runs": [
+            {"run": number, **counted(one)}
+            for number, one in zip(numbers, scores.runs, strict=True)
+        ],
+    }
+
+
+def counted(tally: Tally) -> dict[str, Any]:
+    """Return the counts of a tally, and the figures."""
     return {
         "path_m": tally.length_m,
         "marks": tally.marks,
@@ -147,5 +138,7 @@ def _counted(tally: Tally) -> dict[str, Any]:
         "right": tally.right,
         "designated": tally.designated,
         "found": tally.found,
+        "passages": tally.passages,
+        "passed": tally.passed,
         **tally.figures(),
     }

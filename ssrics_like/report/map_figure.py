@@ -56,7 +56,7 @@ def draw_map(results: Results) -> Drawing:
     room.take(60, 10, 60, 14)  # the scale bar
     if results.building:
         take_landmarks(run.landmarks, frame, room)
-    _draw_ends(axes, run.path, frame, room)
+    draw_ends(axes, run.path, frame, room)
     tips: dict[str, str] = {}
     if results.scores:
         found = results.scores.scores.found[0].tolist()
@@ -157,7 +157,7 @@ def _thinned(
     return np.array(keep, np.int64)
 
 
-def _draw_ends(axes: Axes, path: NDArray[np.float64], frame: Frame, room: Room) -> None:
+def draw_ends(axes: Axes, path: NDArray[np.float64], frame: Frame, room: Room) -> None:
     """Mark start and end of the path."""
     if len(path) == 0:
         return

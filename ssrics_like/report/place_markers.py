@@ -111,7 +111,7 @@ def _draw_badges(
         if look.label_pt and 0 < len(label) <= LABEL_MAX:
             words = text_half_size(label, look.label_pt)[0]
             wide = half[0] + LABEL_GAP_PT / 2 + words
-            spot = room.find(_beside(*at, ring_pt, wide, half[1]), wide, half[1])
+            spot = room.find(beside(*at, ring_pt, wide, half[1]), wide, half[1])
             if spot is not None:
                 spot = spot[0] - LABEL_GAP_PT / 2 - words, spot[1]  # of the badge alone
                 offset = spot[0] + half[0] + LABEL_GAP_PT - at[0], spot[1] - at[1]
@@ -121,7 +121,7 @@ def _draw_badges(
                     gid=f"{HALO}-place-{number}",
                 )  # fmt: skip
         if spot is None:
-            spots = _beside(*at, ring_pt, *half)
+            spots = beside(*at, ring_pt, *half)
             spot = room.find(spots, *half) or spots[0]  # a number is never left out
         _badge(axes, at_m, (spot[0] - at[0], spot[1] - at[1]), number, look, filled=was_found)
 
@@ -168,7 +168,7 @@ def _badge(
     )  # fmt: skip
 
 
-def _beside(
+def beside(
     x: float, y: float, ring: float, half_width: float, half_height: float
 ) -> list[tuple[float, float]]:
     """Return centres of boxes outside a ring, near ones first, the right upper one first."""
