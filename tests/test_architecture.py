@@ -10,6 +10,7 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
     "atomic": set(),
     "perception": {"errors", "compiling"},
     "world": {"errors", "compiling", "perception"},
+    "designators": {"errors", "settings", "perception"},
     "maps": {"errors", "settings", "atomic", "world"},
     "memory": {"errors"},
     "productions": {"errors", "settings"},

@@ -82,7 +82,7 @@ class BuildingSettings(BaseModel):
     @field_validator("doorway_m")
     @classmethod
     def _doorway(cls, value: tuple[float, float]) -> tuple[float, float]:
-        return _within(value, DOORWAY_MIN_M, 1.6)
+        return _within(value, DOORWAY_MIN_M, 1.8)
 
     @field_validator("hallway_m")
     @classmethod
