@@ -16,7 +16,11 @@ def write_atomically(path: Path, data: bytes | str) -> None:
         The folder cannot be written.
     """
     raw = data.encode("utf-8") if isinstance(data, str) else data
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    except OSError as e:
+        e.filename = str(path)  # the temporary name says nothing to anybody
+        raise
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(raw)

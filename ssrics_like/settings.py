@@ -7,10 +7,11 @@ pydantic has said what is wrong.
 
 from __future__ import annotations
 
+import itertools
 import re
 import types
 import typing
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -230,7 +231,8 @@ def explain(kind: type[BaseModel], error: ValidationError, data: Any) -> list[tu
             value = value[part]
         wanted = " or ".join(dict.fromkeys(expectations))
         words = re.findall(r"'([^']*)'", wanted)
-        hint = nearest(value, words) if words and isinstance(value, str) else ""
+        # The only word there is has been said already.
+        hint = nearest(value, words) if len(words) > 1 and isinstance(value, str) else ""
         key = ".".join(str(part) for part in where)
         lines.append((where, f"{key}: {_shown(value)} where {wanted} was expected{hint}"))
     return lines
@@ -310,7 +312,10 @@ def _model_in(annotation: Any) -> Any:
 
 
 def override(
-    settings: Settings, changes: Mapping[str, Any], prefix: str, label: str = "--set "
+    settings: Settings,
+    changes: Mapping[str, Any],
+    prefix: str,
+    label: Callable[[str], str] = lambda _: "--set ",
 ) -> Settings:
     """Return the settings with some values replaced, checked anew.
 
@@ -322,8 +327,8 @@ def override(
         Dotted key below `settings` -> new value.
     prefix : str
         What stands before the key, for messages: ``memory.``.
-    label : str
-        Where the changes stand, for messages.
+    label : callable
+        Says where a dotted key of `changes` stands, for messages.
 
     Raises
     ------
@@ -333,27 +338,50 @@ def override(
     kind = type(settings)
     data = settings.model_dump()
     problems = []
+    applied = []
     for dotted, value in changes.items():
-        keys = dotted.split(".")
+        unknown = _unknown_in(kind, data, dotted.split("."))
+        if unknown:
+            problems.append(f"{label(dotted)}{prefix}{dotted}: unknown key {unknown}")
+            continue
         inner: Any = data
-        for i, key in enumerate(keys):
-            known = fields_at(kind, keys[:i])
-            if not isinstance(inner, dict) or (known and key not in known):
-                problems.append(f"{label}{prefix}{dotted}: unknown key '{key}'{_hint(key, known)}")
-                break
-            if i == len(keys) - 1:
-                inner[key] = value
-            elif inner.get(key) is None:
+        *above, last = dotted.split(".")
+        for key in above:
+            if inner.get(key) is None:
                 inner[key] = {}
             inner = inner[key]
-    if not problems:
-        try:
-            return kind.model_validate(data)
-        except ValidationError as e:
-            for where, text in explain(kind, e, data):
-                key = f"{'.'.join(map(str, where))}: " if text.startswith("unknown key") else ""
-                problems.append(f"{label}{prefix}{key}{text}")
-    raise SettingsError("\n".join(problems))
+        inner[last] = value
+        applied.append(dotted)
+    try:
+        changed = kind.model_validate(data)
+    except ValidationError as e:
+        for where, text in explain(kind, e, data):
+            key = f"{'.'.join(map(str, where))}: " if text.startswith("unknown key") else ""
+            problems.append(f"{label(_changed_at(where, applied))}{prefix}{key}{text}")
+    if problems:
+        raise SettingsError("\n".join(problems))
+    return changed
+
+
+def _unknown_in(kind: type[BaseModel], data: Any, keys: list[str]) -> str:
+    """Return the first key that leads nowhere, with what is known there; nothing if all do."""
+    for i, key in enumerate(keys):
+        known = fields_at(kind, keys[:i])
+        if not isinstance(data, dict) or (known and key not in known):
+            return f"'{key}'{_hint(key, known)}"
+        inner = data.get(key)
+        data = {} if inner is None else inner
+    return ""
+
+
+def _changed_at(where: Key, changes: Sequence[str]) -> str:
+    """Return the dotted key of the change that a complaint is about."""
+
+    def shared(dotted: str) -> int:
+        pairs = zip(dotted.split("."), map(str, where), strict=False)
+        return sum(1 for _ in itertools.takewhile(lambda pair: pair[0] == pair[1], pairs))
+
+    return max(changes, key=shared, default="")
 
 
 def parse_override(text: str) -> tuple[str, Any]:

@@ -60,6 +60,20 @@ def test_json_schemas_know_the_keys(capsys):
         assert schema["additionalProperties"] is False
 
 
+def test_what_is_not_kept_is_said_in_one_line_unless_quiet(capsys, tmp_path):
+    out = tmp_path / "out"
+    for quiet in (["-q"], []):
+        run(capsys, "replay", DEMO, "-o", out, "--jobs", "1", "-q")
+        (out / "path.csv").write_text("")
+        status, _, complained = run(
+            capsys, "replay", DEMO, "-o", out, "--runs", "2", "--resume", "--jobs", "1", *quiet
+        )
+        assert status == 0
+        lines = complained.splitlines()
+        assert len(lines) == (not quiet)
+        assert all(line.startswith(f"ssrics: {out}: its runs are damaged") for line in lines)
+
+
 def test_quiet_says_nothing_and_overrides_reach_the_manifest(capsys, tmp_path):
     status, said, complained = run(
         capsys, "replay", DEMO, "-o", tmp_path / "out", "-q", "--perception", "report",
@@ -113,6 +127,11 @@ def test_a_scenario_of_the_library_runs_by_name(capsys, tmp_path):
         (["replay", DEMO, "--fallback-rate", "0"], "fallback_rate_hz"),
         (["run", "dem"], "did you mean 'demo'?"),
         (["run", "none.yaml"], "none.yaml: no such file"),
+        (["run", DEMO], "demo.log.gz: is no YAML file, expected a scenario (ssrics replay takes"),
+        (["run", DEMO.parents[1] / "maps" / "simple.yaml"], "is a map, expected a scenario"),
+        (["run", folder("memory") / "act-r.yaml"], "is a memory profile, expected a scenario"),
+        (["run", "demo", "-n", "0"], 'Invalid value "0" for -n. Must be >= 1'),
+        (["run", "demo", "-n", "nine"], "Invalid value for -n: 'nine': expected a whole number"),
         (["list", "productionz"], "did you mean 'productions'?"),
         (["show", "productions", "lndmark"], "did you mean 'landmark'?"),
         (["report", "nowhere"], "nowhere: no such folder"),

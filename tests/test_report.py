@@ -1,5 +1,6 @@
 """The report of a results folder that is built by hand, in our writers' formats."""
 
+import itertools
 import json
 import math
 import re
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matplotlib.collections import LineCollection
 from results_folders import (
     LAP_S,
     PUBLISHED,
@@ -28,13 +30,14 @@ from ssrics_like import library
 from ssrics_like.errors import MemoryFileError, ResultsError
 from ssrics_like.memory.landmark import Arc
 from ssrics_like.perception.observation import Pose
-from ssrics_like.report import write_report
+from ssrics_like.report import locations_figure, style, write_report
 from ssrics_like.report.contours import coarser as joined_cells
 from ssrics_like.report.contours import polygons
 from ssrics_like.report.episodes import chosen
 from ssrics_like.report.frames import Frame, frame_around, round_length
 from ssrics_like.report.graph_figure import ways_of
 from ssrics_like.report.labels import Room, around, legend_grid, spread
+from ssrics_like.report.map_figure import draw_map
 from ssrics_like.report.novelty_figure import coarser
 from ssrics_like.report.pictures import Novelty, Outline
 from ssrics_like.report.plan import bounds_of
@@ -166,7 +169,7 @@ def test_ten_thousand_decisions_make_a_page_that_opens(tmp_path):
     assert page.stat().st_size < 3_000_000
     words = Page(page).words
     assert "landmarks 500" in words
-    assert "held no landmark" in words
+    assert "keeps no landmark in declarative memory" in words
 
 
 def test_several_runs_are_listed_and_the_first_is_shown(tmp_path):
@@ -197,7 +200,7 @@ def test_the_page_of_a_building_shows_plan_locations_and_coverage(world_page, wo
     for name in [*WORLD_FIGURES, "map-column"]:
         ET.fromstring((world / "figures" / f"{name}.svg").read_text(encoding="utf-8"))
     for words in ("The simulated building rooms.yaml, sensed with",
-                  "coverage 99.3 %", "The floor plan of the building", "metres, true positions",
+                  "coverage 99.3 % of what was reachable at the start", "The floor plan of the building", "metres, true positions",
                   "location found (", "location missed (", "other labelled place (3)",
                   "Table 1. In what share of 14 runs", "as published (report, table 1)",
                   "5 office & archive", "78 %", "no frontier left", "World: rooms.yaml",
@@ -275,6 +278,58 @@ def test_simulated_runs_are_drawn_at_the_true_positions(tmp_path):
     first = run.landmarks[0]
     assert (first.drawn_x_m, first.drawn_y_m) == (run.reflexes[0].x_m, run.reflexes[0].y_m)
     assert first.x_m == pytest.approx(first.drawn_x_m + 1)
+
+
+def test_a_short_kidnap_breaks_the_path_too(tmp_path):
+    folder = build_world(tmp_path / "r", runs=2, poses=400)
+    manifest = json.loads((folder / "manifest.json").read_text())
+    manifest["scenario"]["world"]["kidnaps"] = [
+        {"at_s": 30.0, "to": [1, 1]}, {"at_s": 0.0, "to": [1, 1]}, {"at_s": 1e4, "to": [1, 1]},
+    ]  # fmt: skip
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+    results = read_results(folder)
+    run = results.shown
+    (landing,) = run.landings  # not at the start, nor after the end
+    assert run.path[landing - 1, 0] < 30.0 <= run.path[landing, 0]
+    with style.context():
+        drawing = draw_map(results)
+    (axes,) = drawing.figure.axes
+    lines = [line for c in axes.collections if isinstance(c, LineCollection)
+             for line in c.get_segments()]  # fmt: skip
+    before, after = run.path[landing - 1, 1:], run.path[landing, 1:]
+    assert any(np.array_equal(line[-1], before) for line in lines)
+    assert any(np.array_equal(line[0], after) for line in lines)
+    for line in lines:
+        assert not any((a == before).all() and (b == after).all()
+                       for a, b in itertools.pairwise(line))  # fmt: skip
+    words = Page(write_report(folder)).words
+    assert "carried elsewhere (1)" in words
+    assert "Dotted: the robot was carried" in words
+
+
+def test_what_no_memory_holds_is_not_said_to_be_undeclared(tmp_path):
+    words = Page(write_report(build(tmp_path / "a", poses=50, memory=False))).words
+    assert "keeps no landmark in declarative memory" in words
+    words = Page(write_report(build(tmp_path / "b", poses=50, per_lap=0, memory=False))).words
+    assert "No landmark was declared in this run, so that declarative memory held none." in words
+
+
+def test_the_robot_has_a_table_of_its_own(tmp_path):
+    folder = build_world(tmp_path / "r", runs=1, poses=50)
+    manifest = json.loads((folder / "manifest.json").read_text())
+    manifest["scenario"]["world"]["robot"]["laser"] = {"beams": 180, "noise_m": 0.01}
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+    words = Page(write_report(folder)).words
+    assert "Robot: pioneer-dx speed_m_s 0.894 laser.beams 180 laser.noise_m 0.01" in words
+
+
+def test_the_clock_looks_the_same_in_the_legend():
+    assert locations_figure.clock_look().get("linestyle", "-") == "-"  # as its upright mark
+
+
+def test_the_table_of_landmarks_says_whose_positions_it_has(world_page, page):
+    assert "those that the robot believed in (odometry frame)" in world_page.words
+    assert "believed in" not in page.words
 
 
 def test_times_count_from_the_start(folder):

@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import shutil
 import xml.etree.ElementTree as ET
 
@@ -110,6 +111,26 @@ def test_the_command_line_knows_such_a_folder(folder, tmp_path, capsys):
         assert (at / file).is_file()
     assert has_variants(twin)
     assert not has_variants(twin / "v00")
+
+
+def test_no_tied_variant_is_named_as_the_only_best(folder, tmp_path):
+    twin = shutil.copytree(folder, tmp_path / "twin")
+    best = max((row for row in rows(folder)), key=lambda row: float(row["recall"]))["name"]
+    for name in ("v00", "v01"):
+        shutil.copy(twin / best / "scores.json", twin / name)
+    words = Page(write_variants_report(twin)).words
+    assert re.search(r"highest recall \d+ % v00 and [2-9] others", words)
+
+
+def test_what_is_above_chance_has_one_meaning(page):
+    assert "points above chance" in page.words
+    assert page.words.count("above chance") == 3  # the card, and what corrected recall is
+    assert "corrected recall" in page.words
+
+
+def test_a_single_run_is_not_called_several(tmp_path):
+    out = build_variants(tmp_path / "v", {"x": ("a", "b")}, runs=1, poses=20, published=PUBLISHED)
+    assert "because there is only one; differences" in Page(write_variants_report(out)).words
 
 
 def test_variants_that_have_not_run_are_named(folder, tmp_path):

@@ -19,9 +19,12 @@ from hypothesis import strategies as st
 from ssrics_like.errors import ResultsError, SourceError
 from ssrics_like.library import folder
 from ssrics_like.memory.store import load_topology
+from ssrics_like.report import write_report
+from ssrics_like.results.counts import and_others, counted
 from ssrics_like.results.files import csv_line, number, write_atomically
 from ssrics_like.results.folder import ResultsFolder, read_manifest
 from ssrics_like.results.thinning import Outline, Series
+from ssrics_like.scenarios.checking import check_file
 from ssrics_like.scenarios.resolving import resolve
 from ssrics_like.scenarios.runner import run_scenario
 from ssrics_like.scenarios.schema import make_scenario
@@ -253,7 +256,7 @@ def test_what_was_left_undecided_is_said(tmp_path):
     )
     manifest = run_scenario(scenario(productions=str(deaf)), tmp_path / "out")
     assert manifest["runs"][0]["undecided"] == 1
-    assert any("1 reflexes were still undecided" in text for text in manifest["warnings"])
+    assert any("1 reflex was still undecided" in text for text in manifest["warnings"])
 
 
 def test_resume_keeps_finished_runs_and_does_the_rest(results, tmp_path, monkeypatch):
@@ -291,6 +294,137 @@ def test_resuming_with_other_settings_is_refused(tmp_path, results):
         run_scenario(scenario(runs=2), out, progress=interrupt)
     with pytest.raises(ResultsError, match="made from other settings"):
         run_scenario(scenario(runs=2, seed=8), out, resume=True)
+
+
+def interrupted(out, runs, at, **changes):
+    """Leave the runs before number `at` of a command that was interrupted then."""
+
+    def interrupt(run, _):
+        if run == at:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_scenario(scenario(runs=runs, **changes), out, progress=interrupt)
+    return out
+
+
+DAMAGE = {
+    "run-000/run.json": "",
+    "run-000/path.csv": "",
+    "run-000/trace.jsonl": None,
+    "run-000/figures.json": "{}",
+}
+
+
+@pytest.mark.parametrize("name", DAMAGE)
+def test_a_stored_run_that_is_damaged_is_done_anew_and_that_is_said(name, results, tmp_path):
+    out = interrupted(tmp_path / "out", 2, 1)
+    if DAMAGE[name] is None:
+        (out / ".runs" / name).unlink()
+    else:
+        (out / ".runs" / name).write_text(DAMAGE[name])
+    said, done = [], set()
+    run_scenario(
+        scenario(runs=2), out, resume=True, say=said.append, progress=lambda run, _: done.add(run)
+    )
+    assert said == [f"{out}: what is stored of run 0 is damaged; done anew"]
+    assert done == {0, 1}
+    assert files(out) == files(results[0])
+
+
+def test_stored_runs_of_nobody_knows_what_are_done_anew(results, tmp_path):
+    out = interrupted(tmp_path / "out", 2, 1)
+    (out / ".runs" / "scenario.json").write_text("")
+    said = []
+    run_scenario(scenario(runs=2), out, resume=True, say=said.append)
+    (line,) = said
+    assert line.startswith(f"{out}: 1 finished run of an interrupted command thrown away")
+    assert line.endswith(": scenario.json, what they were made from, is damaged")
+    assert files(out) == files(results[0])
+
+
+def test_finished_runs_are_not_thrown_away_without_a_word(results, tmp_path):
+    out = interrupted(tmp_path / "out", 2, 1)
+    said = []
+    run_scenario(scenario(runs=2), out, say=said.append)
+    thrown = f"{out}: 1 finished run of an interrupted command thrown away"
+    assert said == [f"{thrown}; --resume would have kept what is whole"]
+    assert files(out) == files(results[0])
+    other = interrupted(tmp_path / "out", 2, 1)
+    run_scenario(scenario(runs=2, seed=8), other, say=said.append)  # resuming would be refused
+    assert said[1:] == [thrown]
+
+
+def test_an_unfinished_folder_says_so(tmp_path):
+    out = interrupted(tmp_path / "out", 3, 1)
+    far = "1 of 3 runs are complete; --resume goes on"
+    assert read_manifest(out)["warnings"] == [far]
+    assert check_file(out) == f"results, {far}; frame odometry"
+    assert far in write_report(out).read_text()
+    run_scenario(scenario(runs=3), out, resume=True)
+    assert read_manifest(out)["warnings"] == []
+    assert check_file(out) == "results, 3 runs; frame odometry"
+
+
+def test_more_runs_can_be_added_to_finished_ones(results, tmp_path):
+    out = tmp_path / "out"
+    run_scenario(scenario(runs=1), out)
+    done = set()
+    run_scenario(scenario(runs=2), out, resume=True, progress=lambda run, _: done.add(run))
+    assert done == {1}
+    assert files(out) == files(results[0])
+    manifest = read_manifest(out)
+    assert {**manifest, "wall_clock": 0} == {**read_manifest(results[0]), "wall_clock": 0}
+    with pytest.raises(ResultsError, match="holds 2 runs, more than 1; resume with -n 2 or more"):
+        run_scenario(scenario(runs=1), out, resume=True)
+    assert files(out) == files(results[0])
+
+
+def test_an_interruption_while_runs_are_added_keeps_those_that_were_there(results, tmp_path):
+    out = tmp_path / "out"
+    run_scenario(scenario(runs=1), out)
+    with pytest.raises(KeyboardInterrupt):
+        run_scenario(scenario(runs=2), out, resume=True, progress=_press)
+    assert [entry["run"] for entry in read_manifest(out)["runs"]] == [0]
+    run_scenario(scenario(runs=2), out, resume=True)
+    assert files(out) == files(results[0])
+
+
+def _press(*_):
+    raise KeyboardInterrupt
+
+
+def test_runs_are_not_added_to_damaged_ones(results, tmp_path):
+    out = tmp_path / "out"
+    run_scenario(scenario(runs=1), out)
+    (out / "path.csv").write_text("")
+    said = []
+    run_scenario(scenario(runs=2), out, resume=True, say=said.append)
+    assert len(said) == 1
+    assert said[0].startswith(f"{out}: its runs are damaged and done anew (")
+    assert files(out) == files(results[0])
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"seed": 8}, "seed was 7, now it is 8"),
+        ({"memory": "forgetful.yaml"}, 'memory.name was "act-r", now it is "forgetful.yaml"'),
+        ({"set": {"memory.decay": 0.3}}, "memory.decay was 0.5, now it is 0.3"),
+        ({"match_radius_m": 2.0}, "match_radius_m was 1.0, now it is 2.0"),
+    ],
+)
+def test_the_first_setting_that_differs_is_named(changes, said, results, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "forgetful.yaml").write_text((folder("memory") / "act-r.yaml").read_text())
+    unfinished = interrupted(tmp_path / "out", 2, 1)
+    for out in (results[0], unfinished):
+        with pytest.raises(ResultsError) as caught:
+            run_scenario(scenario(runs=2, **changes), out, resume=True)
+        assert str(caught.value) == (
+            f"{out}: its runs were made from other settings or another version: {said}; resume "
+            "with the same ones, or without --resume to start anew"
+        )
 
 
 def test_an_interrupted_new_run_leaves_older_results_whole(results, tmp_path):
@@ -457,6 +591,19 @@ def test_an_atomic_write_that_fails_leaves_the_old_file(tmp_path):
         write_atomically(path, None)
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_what_cannot_be_written_is_named_and_not_its_temporary_name(tmp_path):
+    path = tmp_path / "none" / "report.html"
+    with pytest.raises(OSError, match="No such file") as caught:
+        write_atomically(path, "new")
+    assert caught.value.filename == str(path)
+
+
+@pytest.mark.parametrize(("count", "said"), [(0, "0 runs"), (1, "1 run"), (2, "2 runs")])
+def test_one_is_no_plural(count, said):
+    assert counted(count, "run") == said
+    assert and_others(["a", *"bcd"[:count]]) == ["a", "a and 1 other", "a and 2 others"][count]
 
 
 def test_a_series_stays_small_and_keeps_mean_and_extremes():

@@ -1,12 +1,16 @@
 """Runs in a building: the same bytes however they are carried out, and none lost."""
 
 import csv
+import html
 import json
 import os
+import re
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,8 +20,10 @@ from ssrics_like.cli import main
 from ssrics_like.errors import ResultsError, SettingsError, SsricsError
 from ssrics_like.maps import load_building, save_building
 from ssrics_like.perception.observation import Pose
+from ssrics_like.report import write_variants_report
 from ssrics_like.results.checking import check_results
 from ssrics_like.results.folder import read_manifest
+from ssrics_like.scenarios.checking import check_file
 from ssrics_like.scenarios.resolving import load_resolved, resolve
 from ssrics_like.scenarios.runner import drive_key, run_scenario
 from ssrics_like.scenarios.schema import make_scenario, read_scenario
@@ -336,8 +342,6 @@ def test_variants_are_written_down(varied):
 
 
 def test_variants_are_checked_together(varied):
-    from ssrics_like.scenarios.checking import check_file
-
     _, each, out, _ = varied
     assert check_file(out) == f"results of {len(each)} variants"
 
@@ -409,8 +413,8 @@ def test_too_many_variants_are_refused():
 @pytest.mark.parametrize(
     ("set_", "said"),
     [
-        ({"percepton": "report"}, "variant 'v' sets unknown key 'percepton'; did you mean 'perception'?"),
-        ({"seed": 4}, "variant 'v' sets unknown key 'seed'"),
+        ({"percepton": "report"}, "variant 'v': unknown key 'percepton'; did you mean 'perception'?"),
+        ({"seed": 4}, "variant 'v': unknown key 'seed'"),
         ({"memory.decya": 1}, "unknown key 'decya'; did you mean 'decay'?"),
         ({"memory.decay": -1}, "memory.decay: -1: expected greater than 0"),
         ({"memry.decay": 1}, "unknown key 'memry'; did you mean 'memory'?"),
@@ -424,6 +428,115 @@ def test_what_a_variant_cannot_set_is_said(folder, set_, said):
         resolve_variants(make_scenario(data), folder)
     assert said in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
+
+
+def test_variants_say_what_they_found_and_what_did_not_go_as_planned(folder, tmp_path, capsys):
+    near, beyond = (
+        [round(v, 4) for v in two_rooms(origin=ORIGIN).points_in_map([place])[0].tolist()]
+        for place in ((1.0, 1.5), (5.0, 1.5))
+    )
+    path, out = folder / "shut.yaml", tmp_path / "out"
+    path.write_text(
+        f"title: Shut\nworld:\n  map: two.yaml\n  start: {near}\n  repeat: 2\n"
+        f"  waypoints: [{near}, {beyond}]\n  doors: [{{location: door}}]\n"
+        "variants: [{name: one}, {name: two, set: {perception.interval: 30}}]\n"
+    )
+    status, said, complained = command(capsys, "run", path, "--jobs", "1", "-o", out)
+    assert (status, complained) == (0, "")
+    lines = said.splitlines()
+    starts = (["variant"], ["one"], ["two"])
+    heading, one, two = (line.split() for line in lines if line.split()[:1] in starts)
+    assert heading[:3] == ["variant", "runs", "path,"]
+    assert (one[:2], two[:2]) == (["one", "1"], ["two", "1"])
+    assert not re.search(r"\d\.\d{2}", said.partition("warning")[0])  # no long decimals
+    left_out = [
+        f"one and 1 other: waypoint 2 [{beyond[0]:g}, {beyond[1]:g}] of lap {lap} was left out: "
+        "no way led there for 10 s"
+        for lap in (1, 2)
+    ]
+    assert [line for line in lines if line.startswith("warning")] == [
+        f"warning: {text}" for text in left_out
+    ]
+    page = (out / "report.html").read_text()
+    assert all(html.escape(text) in page for text in left_out)
+
+
+def test_unfinished_variants_say_so(varied, tmp_path):
+    read, each, _, _ = varied
+    out = tmp_path / "out"
+    progress, _ = interrupted_at(lambda number, *_: number == 2, out)
+    with pytest.raises(KeyboardInterrupt):
+        run_variants(read, each, out, progress=progress)
+    shutil.rmtree(out / "forgetful")
+    far = "1 of 2 runs are complete; --resume goes on"
+    said = check_file(out)
+    assert said.startswith(f"results of 6 variants, not finished: as-it-is_slow: {far}, ")
+    assert "forgetful: no run is complete; --resume goes on" in said
+    page = write_variants_report(out).read_text()
+    assert f"as-it-is_slow: {far}" in page
+    assert "1 variant has no results yet: forgetful" in page
+
+
+WRONG_PIECES = """\
+world:
+  map: two.yaml
+factors:
+  mind:
+    one: {memory.decya: 1, seed: 4}
+    two:
+      memory.decay: -1
+      perception: reprot
+      world.people.count: -4
+  body:
+    wide: {robot.radius_m: 4.0}
+    a/b: {}
+variants:
+  - {name: v, set: {memory.decay: 0.4}}
+  - name: v
+    set:
+      robot.speed: 1
+"""
+
+
+def test_all_mistakes_in_factors_and_variants_are_said_at_once_with_their_places(folder):
+    path = folder / "wrong.yaml"
+    path.write_text(WRONG_PIECES)
+    read, document = read_scenario(path)
+    with pytest.raises(SettingsError) as caught:
+        resolve_variants(read, folder, where=document.where)
+    found = str(caught.value).replace(f"{path}:", "").splitlines()
+    one, two = "factor 'mind', level 'one'", "factor 'mind', level 'two'"
+    for line, said in zip(
+        found,
+        [
+            f"5:11: {one}: memory.decya: unknown key 'decya'; did you mean 'decay'?",
+            f"5:28: {one}: unknown key 'seed'; known: memory, perception, productions",
+            f"6:5: {two}: no perception entry 'reprot'; did you mean 'report'?",
+            f"7:7: {two}: memory.decay: -1: expected greater than 0",
+            f"9:7: {two}: world.people.count: -4: expected greater than or equal to 0",
+            "11:5: factor 'body', level 'wide': 1:1: world.robot: the robot (radius 4 m) fits",
+            "12:5: factor 'body', level 'a/b': cannot name a folder",
+            "15:5: variants: two are called 'v'",
+            "17:7: variant 'v': robot.speed: unknown key 'speed'; did you mean 'speed_m_s'?",
+        ],
+        strict=True,
+    ):
+        assert line.startswith(said)
+
+
+def test_levels_that_do_not_go_together_are_said_of_the_variant():
+    data = {
+        "world": {"building": {"rooms": 2}},
+        "factors": {
+            "first": {"wait": {"world.legs": [{"wait_s": 1}]}},
+            "then": {"explore": {"world.explore": "frontier"}},
+        },
+    }
+    with pytest.raises(SettingsError) as caught:
+        resolve_variants(make_scenario(data), Path())
+    assert str(caught.value) == (
+        "variant 'wait_explore': world: explore and legs exclude each other; list them in legs"
+    )
 
 
 def test_what_is_typed_reaches_every_variant(varied, folder):

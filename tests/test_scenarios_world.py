@@ -120,7 +120,7 @@ EVERY_COMPLAINT = """\
 10:3: world.map: {here}/none.yaml: no such file
 11:3: world.robot: no robots entry 'pioneer'; did you mean 'pioneer-dx'?; {robots}
 12:3: world.start: [1.0]: expected [x, y] or [x, y, heading] in metres and radians
-13:3: world.explore: 'frontiers' where 'frontier' was expected; did you mean 'frontier'?
+13:3: world.explore: 'frontiers' where 'frontier' was expected
 14:23: world.waypoints.1: [2]: expected [x, y] or [x, y, heading] in metres and radians
 15:3: world.repeat: 0: expected greater than or equal to 1
 16:3: world.time_limit_s: 0: expected greater than 0
@@ -313,6 +313,33 @@ def test_a_robot_too_wide_for_the_map_is_said(maps, tmp_path):
     assert said.startswith("4:15: world.waypoints.0: [-3.5, 5.5]: the robot (radius 0.6 m) cannot")
 
 
+def test_every_wrong_value_of_set_is_said_at_its_own_line(maps):
+    path = written(
+        maps,
+        "world:\n  map: two.yaml\nset:\n  memory.decay: -1\n  perception.mrk: onset\n"
+        "  perception.interval: 1\n  robot.speed_m_s: fast\n  seed: 4\n",
+    )
+    assert sorted(line.split("; ")[0] for line in complaints(path)) == [
+        "4:3: memory.decay: -1: expected greater than 0",
+        "5:3: perception.mrk: unknown key 'mrk'",
+        "6:3: perception.interval: 1: expected greater than or equal to 2",
+        "7:3: robot.speed_m_s: 'fast' where a number was expected",
+        "8:3: seed: unknown key 'seed'",
+    ]
+
+
+def test_every_mistake_about_doors_is_said_at_once(maps):
+    path = written(
+        maps,
+        "world:\n  map: two.yaml\n  doors:\n    - {location: dor}\n"
+        "    - {location: door, at: [1, 2], closes_s: 5, opens_s: 4}\n",
+    )
+    assert complaints(path) == [
+        "4:8: world.doors.0.location: the map has no location 'dor'; did you mean 'door'?",
+        "5:7: world.doors.1: a door has either location or at; opens_s is 4, not after closes_s 5",
+    ]
+
+
 def test_locations_of_a_table_replace_those_of_the_map(maps):
     path = written(maps, "world: {map: two.yaml, locations: mine.csv, doors: [{location: gate}]}\n")
     place = load_resolved(path).place
@@ -354,7 +381,7 @@ world:
 runs: 3
 """,
     )
-    assert check_file(path) == "scenario, 'There and back', 3 run(s) of two.yaml"
+    assert check_file(path) == "scenario, 'There and back', 3 runs of two.yaml"
     place = load_resolved(path).place
     # Everything is kept in the frame of the grid, and told in that of the map.
     assert (place.start.x_m, place.start.y_m) == pytest.approx((1.5, 1.5))

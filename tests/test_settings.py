@@ -163,6 +163,16 @@ def test_overrides_are_checked_like_the_file():
         assert str(caught.value).startswith(said)
 
 
+def test_every_wrong_override_is_said_at_once_each_with_its_own_place():
+    changes = {"inner.decya": 1, "inner.decay": -2, "runs": "many"}
+    lines = {"inner.decya": "f:1: ", "inner.decay": "f:2: ", "runs": "f:3: "}
+    with pytest.raises(SettingsError) as caught:
+        settings.override(Outer(), changes, "x.", lines.__getitem__)
+    assert [line.split(": ")[:2] for line in str(caught.value).splitlines()] == [
+        ["f:1", "x.inner.decya"], ["f:2", "x.inner.decay"], ["f:3", "x.runs"],
+    ]  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

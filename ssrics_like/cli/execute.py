@@ -8,26 +8,34 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ssrics_like.cli.summary import found, print_variants, summary
+
 if TYPE_CHECKING:
+    from typing import TypedDict
+
+    from ssrics_like.results.listing import Variant
     from ssrics_like.scenarios.resolving import Resolved
-    from ssrics_like.scenarios.runner import Progress
+    from ssrics_like.scenarios.runner import Progress, Say
     from ssrics_like.scenarios.schema import Scenario
-    from ssrics_like.scenarios.variants import Variant
+
+    class Watch(TypedDict):
+        """What the runner tells."""
+
+        progress: Progress
+        say: Say
 
 
 def execute(resolved: Resolved, out: Path, *, resume: bool, jobs: int, quiet: bool) -> None:
     """Carry a scenario out and report on it."""
     from ssrics_like.scenarios.runner import run_scenario
 
-    with _watched(resolved.source_name, resolved.scenario.runs, out, quiet=quiet) as progress:
-        manifest = run_scenario(resolved, out, resume=resume, jobs=jobs, progress=progress)
+    with _watched(resolved.source_name, resolved.scenario.runs, out, quiet=quiet) as watch:
+        manifest = run_scenario(resolved, out, resume=resume, jobs=jobs, **watch)
     from ssrics_like.report import write_report
 
     page = write_report(out)
     if not quiet:
-        for line in summary(manifest):
-            print(line)
-        for line in found(out):
+        for line in [*summary(manifest), *found(out)]:
             print(line)
         print(f"report: {page}")
 
@@ -48,18 +56,21 @@ def execute_variants(
     from ssrics_like.scenarios.variants import run_variants
 
     runs = sum({drive_key(each): each.scenario.runs for _, each in resolved}.values())
-    with _watched(f"{len(resolved)} variants", runs, out, quiet=quiet) as progress:
-        run_variants(scenario, resolved, out, resume=resume, jobs=jobs, progress=progress)
-    over_processes(write_report, [out / variant.name for variant, _ in resolved], jobs)
+    with _watched(f"{len(resolved)} variants", runs, out, quiet=quiet) as watch:
+        manifests = run_variants(scenario, resolved, out, resume=resume, jobs=jobs, **watch)
+    folders = [out / variant.name for variant, _ in resolved]
+    with progress_bar(quiet=quiet) as bar:
+        task = bar.add_task("reports", total=len(folders))
+        over_processes(write_report, folders, jobs, lambda: bar.advance(task))
     page = write_variants_report(out)
     if not quiet:
-        print((out / "variants.csv").read_text(encoding="utf-8"), end="")
+        print_variants(out, manifests)
         print(f"report: {page}")
 
 
 @contextmanager
-def _watched(what: str, total: int, out: Path, *, quiet: bool) -> Iterator[Progress]:
-    """Show how far the work is; say what is kept when it is interrupted."""
+def _watched(what: str, total: int, out: Path, *, quiet: bool) -> Iterator[Watch]:
+    """Show how far the work is and what is said of it; say what an interruption leaves."""
     shares: dict[int, float] = {}
     bar = progress_bar(quiet=quiet)
     with bar:
@@ -69,8 +80,12 @@ def _watched(what: str, total: int, out: Path, *, quiet: bool) -> Iterator[Progr
             shares[number] = share
             bar.update(task, completed=sum(shares.values()))
 
+        def say(text: str) -> None:
+            if not quiet:
+                bar.console.print(f"ssrics: {text}", markup=False, highlight=False, soft_wrap=True)
+
         try:
-            yield progress
+            yield {"progress": progress, "say": say}
         except KeyboardInterrupt:
             if any(out.glob("*/manifest.json")) or (out / "manifest.json").is_file():
                 raise KeyboardInterrupt(
@@ -86,38 +101,3 @@ def progress_bar(*, quiet: bool) -> Any:
 
     shown = sys.stderr.isatty() and not quiet
     return Progress(console=Console(stderr=True), transient=True, disable=not shown)
-
-
-def summary(manifest: dict[str, Any]) -> list[str]:
-    """Say in a few lines what the runs gave."""
-    lines = []
-    for entry in manifest["runs"]:
-        decided = ", ".join(f"{n} {what}" for what, n in entry["decisions"].items()) or "no reflex"
-        seen = f"{100 * entry['coverage']:.1f} % seen, " if "coverage" in entry else ""
-        lines.append(
-            f"run {entry['run']}: {entry['scans']} scans, {entry['path_length_m']:.1f} m, {seen}"
-            f"{entry['landmarks']} landmarks ({decided})"
-        )
-    lines += [f"warning: {text}" for text in manifest["warnings"]]
-    return lines
-
-
-def found(out: Path) -> list[str]:
-    """Say in how many runs each designated location was found (the report's table 1)."""
-    from ssrics_like.comparison import score_folder
-
-    scored = score_folder(out)
-    if scored is None:
-        return []
-    lines = []
-    for place in scored.scores.places:
-        if place.designated:
-            low, high = place.interval
-            published = scored.published.get(place.location.id)
-            beside = f", published {100 * published:.0f} %" if published is not None else ""
-            lines.append(
-                f"location {place.location.id}: found in {place.found} of {place.runs} runs "
-                f"({100 * low:.0f}-{100 * high:.0f} %), by chance {100 * place.chance:.0f} %"
-                f"{beside}"
-            )
-    return lines

@@ -11,7 +11,10 @@ from cyclopts import Parameter, Token, validators
 
 def _whole(_kind: type, tokens: Sequence[Token]) -> int:
     """Read a whole number; 1.5 is none, and not rounded."""
-    return int(tokens[0].value)
+    try:
+        return int(tokens[0].value)
+    except ValueError:
+        raise ValueError(f"'{tokens[0].value}': expected a whole number") from None
 
 
 Whole = Annotated[int, Parameter(converter=_whole)]
@@ -22,7 +25,10 @@ Overrides = Annotated[tuple[str, ...], Parameter(name="--set", negative="", cons
 Radii = Annotated[
     tuple[str, ...], Parameter(negative="", consume_multiple=False, show_default=False)
 ]
-Runs = Annotated[int | None, Parameter(name=["--runs", "-n"], converter=_whole)]
+Runs = Annotated[
+    int | None,
+    Parameter(name=["--runs", "-n"], converter=_whole, validator=validators.Number(gte=1)),
+]
 Jobs = Annotated[
     int | None,
     Parameter(name=["--jobs", "-j"], converter=_whole, validator=validators.Number(gte=1)),

@@ -62,7 +62,7 @@ def draw_column_map(results: Results) -> Drawing | None:
     axes.set_yticks([])
     for spine in axes.spines.values():
         spine.set_visible(False)
-    draw_path(axes, run.path, frame, width=0.6)
+    draw_path(axes, run.path, frame, width=0.6, landings=run.landings)
     room = Room(frame.width_pt, frame.height_pt)
     _draw_ends(axes, run, frame, room)
     _draw_marks(axes, run, frame, room)

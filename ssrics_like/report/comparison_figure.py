@@ -165,7 +165,8 @@ def _draw(axes: Axes, panel: _Panel) -> dict[str, str]:
         for line in made.lines_m[np.isfinite(made.lines_m).all(axis=(1, 2))]:
             axes.plot(*line.T, color=style.INK, linewidth=1.6, solid_capstyle="butt", zorder=1.8)
     path = _timed(made)
-    draw_path(axes, path, frame, width=0.9)
+    landings = () if isinstance(made.truth, Truth) else made.records.runs[0].landings
+    draw_path(axes, path, frame, width=0.9, landings=landings)
     room = Room(frame.width_pt, frame.height_pt)
     room.take(60, 10, 60, 14)  # the scale bar
     marks = made.drives[0].marks.xy_m

@@ -40,6 +40,7 @@ def content_of(results: Results) -> dict[str, Any]:
         "runs": [_run_row(each) for each in results.runs],
         "decisions": _decisions_shown(results.runs),
         "landmarks": [_landmark_row(i, mark) for i, mark in enumerate(run.landmarks)],
+        "positions": _positions(results),
         "linked": len(run.landmarks) <= TIPPED_MAX,
         "rules_title": str(scenario["productions"].get("title", "")),
         "rules": _rules(run, scenario["productions"]["rules"]),
@@ -89,7 +90,7 @@ def _coverage_card(run: Run) -> list[tuple[str, str, str]]:
     """Return how much of the building was seen; nothing for a log."""
     if run.coverage is None:
         return []
-    return [("coverage", percent_text(run.coverage, 1), "of the reachable space")]
+    return [("coverage", percent_text(run.coverage, 1), "of what was reachable at the start")]
 
 
 def _grouped(count: int) -> str:
@@ -126,6 +127,17 @@ def _run_row(run: Run) -> dict[str, Any]:
         "rate": "–" if math.isnan(rate) else f"{rate:.1f}",
         "ended": str(run.entry.get("ended", "")),
     }
+
+
+def _positions(results: Results) -> str:
+    """Say which positions the table of landmarks has, where the map has others."""
+    if not results.shown.is_true:
+        return ""
+    frame = results.manifest["frame"]
+    return (
+        f"Positions and headings are those that the robot believed in ({frame} frame); the map "
+        "shows the true ones."
+    )
 
 
 def _landmark_row(index: int, mark: Landmark) -> dict[str, Any]:
@@ -167,7 +179,19 @@ def _world_settings(results: Results) -> list[dict[str, Any]]:
         return []
     given = {key: value for key, value in world.items() if value not in (None, [], {})}
     title = results.building.title if results.building else ""
-    return [_settings("world", {"name": results.manifest["input"]["file"], "title": title} | given)]
+    robot = given.pop("robot", None)
+    parts = [
+        _settings("world", {"name": results.manifest["input"]["file"], "title": title} | given)
+    ]
+    return [*parts, _settings("robot", _flat(robot))] if robot else parts
+
+
+def _flat(values: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+    """Return nested values under dotted keys."""
+    found: dict[str, Any] = {}
+    for key, value in values.items():
+        found |= _flat(value, f"{above}{key}.") if isinstance(value, dict) else {above + key: value}
+    return found
 
 
 def _settings(kind: str, profile: Mapping[str, Any]) -> dict[str, Any]:

@@ -95,7 +95,7 @@ def draw_clock(axes: Axes, row: float, clock: float, half: float = 0.3) -> None:
 
 def clock_look() -> dict[str, Any]:
     """Return how marks by a clock are drawn."""
-    return {"color": style.INK, "linewidth": 0.9, "linestyle": (0, (2, 1.2))}
+    return {"color": style.INK, "linewidth": 0.9}
 
 
 def ours_look(size: float) -> dict[str, Any]:

@@ -32,6 +32,7 @@ HEIGHTS_PT = (230.0, 640.0)
 LEGEND_ROW_PT = 12.5
 PATH_PARTS = 48
 CARRIED_M, CARRIED_M_S = 1.0, 20.0  # no robot indoors goes farther and faster than these
+CARRIED: dict[str, Any] = {"color": style.MUTED, "linewidth": 0.9, "linestyle": (0, (1, 1.6))}
 OTHERS = ("recognised", "unsure", "dismissed", "overwritten")
 """Decisions that make no new landmark."""
 
@@ -50,7 +51,9 @@ def draw_map(results: Results) -> Drawing:
     axes = style.place_axes(figure, left, right, bottom, top)
     draw_background(axes, results, frame)
     show_frame(axes, frame, low=results.building is not None)
-    draw_path(axes, run.path, frame)
+    draw_path(axes, run.path, frame, landings=run.landings)
+    for landing in run.landings:
+        axes.plot(*run.path[landing - 1 : landing + 1, 1:].T, zorder=2, **CARRIED)
     _draw_reflexes(axes, run.reflexes, frame)
     room = Room(frame.width_pt, frame.height_pt)
     room.take(60, 10, 60, 14)  # the scale bar
@@ -98,6 +101,8 @@ def _caption(results: Results, *, hint: bool) -> str:
         "with time. Filled dots are landmarks where they were declared, coloured by the sector in "
         f"which the largest reading lay{rings}; where it is crowded, some carry no name."
     )
+    if len(run.landings):
+        text += " Dotted: the robot was carried, and did not drive."
     if results.scores:
         radius_m = results.scores.scores.radius_m
         text += (
@@ -115,13 +120,21 @@ def frame_text(results: Results) -> str:
 
 
 def draw_path(
-    axes: Axes, path: NDArray[np.float64], frame: Frame, width: float = 1.1, parts: int = PATH_PARTS
+    axes: Axes,
+    path: NDArray[np.float64],
+    frame: Frame,
+    width: float = 1.1,
+    parts: int = PATH_PARTS,
+    landings: NDArray[np.int64] | tuple[()] = (),
 ) -> None:
-    """Draw the path as a line that darkens with time."""
+    """Draw the path as a line that darkens with time, broken where the robot was carried.
+
+    `landings` are indices of poses where it was put down; a step that no robot drives is another.
+    """
     from matplotlib.collections import LineCollection
     from matplotlib.colors import LinearSegmentedColormap
 
-    jumps = _jumps(path)
+    jumps = np.union1d(_jumps(path), landings).astype(np.int64)
     keep = _thinned(path[:, 1:], 0.6 / frame.points_per_m, jumps)
     if len(keep) <= 1:
         return
@@ -220,6 +233,8 @@ def _legend(results: Results) -> list[Any]:
         if count:
             look = _look(decision, style.MUTED)
             handles.append(Line2D([], [], label=f"{decision} ({count})", **look))
+    if len(run.landings):
+        handles.append(Line2D([], [], label=f"carried elsewhere ({len(run.landings)})", **CARRIED))
     if results.scores:
         found = results.scores.scores.found[0].tolist()
         handles += places_legend(results.scores, found, PlaceStyle())

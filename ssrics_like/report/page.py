@@ -42,8 +42,7 @@ FIGURES: tuple[tuple[str, str, str, Callable[[Results], Drawing | None], str], .
     ("timeline", "Timeline", "Buffers and productions", draw_timeline,
      "No reflex was decided in this run, so no buffer was used; or the scenario keeps no trace."),
     ("activation", "Activation", "Activation of landmarks", draw_activation,
-     ("Declarative memory held no landmark in this run: none was declared, or the rule set keeps "
-      "no memory.")),
+     "No landmark was declared in this run, so that declarative memory held none."),
     ("graph", "Graph", "Topological memory", draw_graph, "No landmark was declared in this run."),
 )  # fmt: skip
 """Name, short and full heading, how to draw it, and what to say where there is nothing to draw."""
@@ -107,6 +106,10 @@ def _section(
 ) -> dict[str, str]:
     """Draw a figure; return it with what stands around it."""
     drawing = draw(results)
+    if name == "activation" and results.shown.landmarks:
+        otherwise = (
+            "The rule set keeps no landmark in declarative memory, so that none has an activation."
+        )
     return {
         "name": name,
         "short": short,

@@ -86,7 +86,7 @@ def _small_map(axes: Axes, results: Results, index: int, frame: Frame) -> None:
     run = results.runs[index]
     axes.set_xlim(frame.left, frame.right)
     axes.set_ylim(frame.bottom, frame.top)
-    draw_path(axes, run.path, frame, width=0.7, parts=12)
+    draw_path(axes, run.path, frame, width=0.7, parts=12, landings=run.landings)
     _dots(axes, run.landmarks)
     axes.set_xticks([])
     axes.set_yticks([])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,10 +9,11 @@ from typing import Any
 
 from ssrics_like.comparison.writing import SCORES
 from ssrics_like.errors import ResultsError
-from ssrics_like.results.folder import MANIFEST, read_manifest
+from ssrics_like.results.counts import and_others
+from ssrics_like.results.listing import Variant as Listed
+from ssrics_like.results.listing import read_json, read_listing
+from ssrics_like.results.manifest import MANIFEST, read_manifest, unfinished
 
-VARIANTS = "variants.json"
-FORMAT, VERSION = "ssrics-variants", 1
 FIGURES = (
     "recall",
     "low",
@@ -50,6 +50,10 @@ class Variant:
         `FIGURES`, pooled over the runs; NaN where there is none.
     shares, published : dict of str to float
         Location -> share of runs in which it was found, here and as published.
+    unfinished : str
+        How many of its runs are complete; empty if that is all of them.
+    warnings : tuple of str
+        Those of its runs.
     """
 
     name: str
@@ -60,6 +64,8 @@ class Variant:
     figures: dict[str, float]
     shares: dict[str, float]
     published: dict[str, float]
+    unfinished: str = ""
+    warnings: tuple[str, ...] = ()
 
     @property
     def distance(self) -> float:
@@ -110,15 +116,28 @@ class Variants:
         return tuple(dict.fromkeys(name for variant in self.done for name in variant.factors))
 
     @property
+    def warnings(self) -> list[str]:
+        """Every warning of any run, once, with the variants whose runs have it."""
+        of: dict[str, list[str]] = {}
+        for variant in self.done:
+            for text in dict.fromkeys(variant.warnings):
+                of.setdefault(text, []).append(variant.name)
+        return [f"{and_others(names)}: {text}" for text, names in of.items()]
+
+    @property
+    def unfinished(self) -> list[str]:
+        """What is not complete yet, by variant."""
+        found = [f"{v.name}: {v.unfinished}" for v in self.done if v.unfinished]
+        if self.missing:
+            have = "variant has" if len(self.missing) == 1 else "variants have"
+            found.append(f"{len(self.missing)} {have} no results yet: {', '.join(self.missing)}")
+        return found
+
+    @property
     def nearest(self) -> Variant | None:
         """The variant whose shares come nearest to the published ones."""
         known = [variant for variant in self.done if not math.isnan(variant.distance)]
         return min(known, key=lambda variant: variant.distance, default=None)
-
-
-def has_variants(folder: Path) -> bool:
-    """Tell whether a folder holds the variants of a scenario."""
-    return (folder / VARIANTS).is_file()
 
 
 def read_variants(folder: Path) -> Variants:
@@ -134,53 +153,33 @@ def read_variants(folder: Path) -> Variants:
     ResultsError
         variants.json or a variant's scores.json is missing, damaged or newer than this program.
     """
-    file = folder / VARIANTS
-    data = _json(file)
-    try:
-        if data["format"] != FORMAT or not isinstance(data["version"], int):
-            raise ResultsError(f"{file}: is no list of variants")
-        if data["version"] > VERSION:
-            raise ResultsError(
-                f"{file}: variants of version {data['version']}, this program reads up to {VERSION}"
-            )
-        listed = [_listed(file, entry) for entry in data["variants"]]
-        title, description = str(data["title"]), str(data.get("description") or "")
-    except (KeyError, TypeError, AttributeError) as e:
-        raise ResultsError(f"{file}: is damaged: {e!r}") from None
+    listing = read_listing(folder)
     done, missing, sources = [], [], []
-    for entry in listed:
-        at = folder / entry["name"]
+    for listed in listing.variants:
+        at = folder / listed.name
         if not (at / MANIFEST).is_file():
-            missing.append(entry["name"])
+            missing.append(listed.name)
             continue
-        runs = len(read_manifest(at)["runs"])
-        scores = _json(at / SCORES) if (at / SCORES).is_file() else {}
+        manifest = read_manifest(at)
+        scores = read_json(at / SCORES) if (at / SCORES).is_file() else {}
         try:
-            done.append(_variant(entry, runs, scores))
+            done.append(_variant(listed, manifest, scores))
             sources.append(str(scores.get("published_in", "")))
         except (KeyError, TypeError, ValueError, AttributeError) as e:
             raise ResultsError(f"{at / SCORES}: is damaged: {e!r}") from None
     if not done:
         raise ResultsError(f"{folder}: no variant has results; there is nothing to report")
     return Variants(
-        folder, title, description, tuple(done), tuple(missing), next(filter(None, sources), "")
+        folder,
+        listing.title,
+        listing.description,
+        tuple(done),
+        tuple(missing),
+        next(filter(None, sources), ""),
     )
 
 
-def _listed(file: Path, entry: dict[str, Any]) -> dict[str, Any]:
-    """Check an entry of variants.json; a variant's name is that of its folder, and no path."""
-    name = str(entry["name"])
-    if name in ("", ".", "..") or set(name) & set("/\\\0"):
-        raise ResultsError(f"{file}: '{name}' cannot be the name of a variant's folder")
-    return {
-        "name": name,
-        "title": str(entry.get("title") or ""),
-        "factors": {str(k): str(v) for k, v in (entry.get("factors") or {}).items()},
-        "settings": dict(entry.get("set") or {}),
-    }
-
-
-def _variant(entry: dict[str, Any], runs: int, scores: dict[str, Any]) -> Variant:
+def _variant(listed: Listed, manifest: dict[str, Any], scores: dict[str, Any]) -> Variant:
     """Join what is listed of a variant with its scores; none at all where nothing is labelled."""
     pooled = scores.get("pooled", {})
     shares, published = {}, {}
@@ -190,25 +189,18 @@ def _variant(entry: dict[str, Any], runs: int, scores: dict[str, Any]) -> Varian
             if place["published"] is not None:
                 published[str(place["location"])] = float(place["published"])
     return Variant(
-        **entry,
-        runs=runs,
+        name=listed.name,
+        title=listed.title,
+        factors=listed.factors,
+        settings=listed.set,
+        runs=len(manifest["runs"]),
         figures={name: _number(pooled.get(name)) for name in FIGURES},
         shares=shares,
         published=published,
+        unfinished=unfinished(manifest),
+        warnings=tuple(str(text) for run in manifest["runs"] for text in run.get("warnings", ())),
     )
 
 
 def _number(value: float | None) -> float:
     return math.nan if value is None else float(value)
-
-
-def _json(file: Path) -> dict[str, Any]:
-    try:
-        data = json.loads(file.read_text(encoding="utf-8"))
-    except OSError as e:
-        raise ResultsError(f"{file}: cannot be read ({e.strerror})") from None
-    except ValueError as e:
-        raise ResultsError(f"{file}: is damaged: {e}") from None
-    if not isinstance(data, dict):
-        raise ResultsError(f"{file}: is damaged: expected a mapping")
-    return data

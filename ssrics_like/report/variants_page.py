@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from ssrics_like.report.variants import Variant, Variants, read_variants
 from ssrics_like.report.variants_figure import draw_variants
 from ssrics_like.report.variants_table import levels_table, variants_csv, variants_table
 from ssrics_like.report.words import figure_text, fraction_text, number_text, percent_text
+from ssrics_like.results.counts import and_others
 from ssrics_like.results.files import write_atomically
 
 PAGE, TABLE = "report.html", "variants.csv"
@@ -72,7 +73,14 @@ def content_of(variants: Variants) -> dict[str, Any]:
     return {
         "title": variants.title or variants.folder.name,
         "description": variants.description,
-        "missing": list(variants.missing),
+        "notes": [
+            (heading, lines)
+            for heading, lines in (
+                ("Not complete", variants.unfinished),
+                ("Warnings", variants.warnings),
+            )
+            if lines
+        ],
         "cards": _cards(variants),
         "nearest": _nearest(variants),
         "table": variants_table(variants),
@@ -98,12 +106,18 @@ def _cards(variants: Variants) -> list[tuple[str, str, str]]:
     for heading, value_of, text_of in BEST:
         known = [v for v in variants.done if not math.isnan(value_of(v))]
         if known:
-            best = max(known, key=value_of)
-            cards.append((heading, text_of(value_of(best)), best.name))
-    if variants.nearest is not None:
-        distance = figure_text(variants.nearest.distance, 3)
-        cards.append(("nearest to published", distance, variants.nearest.name))
+            best = max(map(value_of, known))
+            cards.append((heading, text_of(best), _tied(known, value_of, best)))
+    nearest = variants.nearest
+    if nearest is not None:
+        tied = _tied(variants.done, lambda variant: variant.distance, nearest.distance)
+        cards.append(("nearest to published", figure_text(nearest.distance, 3), tied))
     return cards
+
+
+def _tied(variants: Sequence[Variant], value_of: Callable[[Variant], float], best: float) -> str:
+    """Name the variants that have the best value: the first, and how many more."""
+    return and_others([v.name for v in variants if math.isclose(value_of(v), best, abs_tol=1e-6)])
 
 
 def _above_chance(variant: Variant) -> float:
@@ -132,12 +146,14 @@ def _nearest(variants: Variants) -> str:
     if best is None:
         return ""
     recall, chance = best.figures["recall"], best.figures["chance"]
+    name = _tied(variants.done, lambda variant: variant.distance, best.distance)
+    only = "there is only one" if best.runs == 1 else f"there are only {best.runs} of them"
     return (
         f"The distance to the published shares ({variants.published_in}) is the root mean square "
         f"difference over the {len(best.published)} locations that have one. Nearest is "
-        f"{best.name}, {fraction_text(best.distance, 3)} away, which found "
+        f"{name}, {fraction_text(best.distance, 3)} away, which found "
         f"{percent_text(recall)} where marks at random find {percent_text(chance)}. Runs that find "
         f"each location with exactly the published probability would come out about "
-        f"{fraction_text(best.expected_distance, 3)} away, because there are only {best.runs} of "
-        "them; differences between small distances say nothing."
+        f"{fraction_text(best.expected_distance, 3)} away, because {only}; differences between "
+        "small distances say nothing."
     )

@@ -17,7 +17,7 @@ HEADINGS = {
     "recall": "recall",
     "chance": "by chance",
     "clock": "by a clock",
-    "corrected_recall": "above chance",
+    "corrected_recall": "corrected recall",
     "precision": "precision",
     "f": "F",
     "marks_per_100_m": "marks per 100 m",

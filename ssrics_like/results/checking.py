@@ -10,7 +10,7 @@ from typing import Any
 from ssrics_like.errors import ResultsError
 from ssrics_like.memory.store import load_topology
 from ssrics_like.results import tables
-from ssrics_like.results.folder import read_manifest
+from ssrics_like.results.manifest import read_manifest
 
 HEADERS = {
     "decisions.csv": tables.DECISIONS,

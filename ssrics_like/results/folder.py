@@ -8,7 +8,6 @@ So an interrupted command leaves finished runs whole, and can be resumed.
 from __future__ import annotations
 
 import json
-import re
 import shutil
 from pathlib import Path
 from types import TracebackType
@@ -16,15 +15,17 @@ from typing import Any, Self
 
 from filelock import FileLock, Timeout
 
-from ssrics_like.errors import ResultsError
-from ssrics_like.results import tables
-from ssrics_like.results.files import csv_line, json_text, plain, write_atomically
+from ssrics_like.errors import MemoryFileError, ResultsError
+from ssrics_like.results.checking import check_results
+from ssrics_like.results.counts import counted
+from ssrics_like.results.files import json_text, plain, write_atomically
+from ssrics_like.results.joining import MADE_FROM_ALL, join_runs
+from ssrics_like.results.manifest import MANIFEST, but_for_runs, difference, read_manifest
+from ssrics_like.results.stored import copy_out, entry_of, is_whole, number_of, seal
 
-MANIFEST = "manifest.json"
-FORMAT = "ssrics-results"
-VERSION = 1
-MADE_FROM_ALL = ("report.html", "locations.csv", "scores.json")
-"""Files that are worked out from all runs, after the tables."""
+__all__ = ["MANIFEST", "OURS", "ResultsFolder", "read_manifest"]
+
+NOTE = "scenario.json"
 OURS = (
     MANIFEST,
     "decisions.csv",
@@ -36,7 +37,6 @@ OURS = (
     "map",
     *MADE_FROM_ALL,
 )
-_RUN_FILE = re.compile(r"run-\d{3,}\.(json|graphml|jsonl)")
 
 
 class ResultsFolder:
@@ -46,6 +46,11 @@ class ResultsFolder:
     ----------
     path : Path
         The folder; made if it does not exist. Files of others in it are left alone.
+
+    Attributes
+    ----------
+    notices : list of str
+        What the user should know of runs that were there and are not kept.
 
     Raises
     ------
@@ -57,6 +62,7 @@ class ResultsFolder:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.staging = path / ".runs"
+        self.notices: list[str] = []
         self._lock = FileLock(path / ".lock", timeout=0)
         if path.exists() and not path.is_dir():
             raise ResultsError(f"{path}: is a file, expected a folder for results")
@@ -105,52 +111,107 @@ class ResultsFolder:
             All that decides the results; runs of another description cannot be resumed, but
             there may be more of them.
         resume : bool
-            Keep the runs that are complete, rather than start anew.
+            Keep the runs that are complete, and whole, rather than start anew.
 
         Returns
         -------
         dict
-            Run number -> entry, of the runs that are kept.
+            Run number -> entry, of the runs that are kept; `notices` says what was not.
 
         Raises
         ------
         ResultsError
-            It is to be resumed, but the runs there belong to another scenario.
+            It is to be resumed, but the runs there belong to another scenario, or are more than
+            it has.
         """
-        note = self.staging / "scenario.json"
-        text = json_text(_but_for_runs(description))
-        if resume and note.is_file():
-            if note.read_text(encoding="utf-8") != text:
-                raise self._other()
-        else:
-            if self.staging.exists():
-                shutil.rmtree(self.staging)
-            self.staging.mkdir()
-            write_atomically(note, text)
+        if not (resume and self._is_ready(description)):
+            self._discard(description)
+            self._prepare(description)
         for partial in self.staging.glob("*.partial"):
             shutil.rmtree(partial)
+        damaged = [folder for folder in self._complete() if not is_whole(folder)]
+        for folder in damaged:
+            shutil.rmtree(folder)
+        if damaged:
+            names = ", ".join(str(number_of(folder)) for folder in damaged)
+            self.notices.append(f"what is stored of run {names} is damaged; done anew")
         return {entry["run"]: entry for entry in self._entries()}
+
+    def _is_ready(self, description: dict[str, Any]) -> bool:
+        """Tell whether stored runs of this very scenario can be gone on with."""
+        before = self._stored()
+        if not self._complete() or before is None:
+            return False
+        self._compare(before, description, number_of(self._complete()[-1]) + 1)
+        return True
+
+    def _stored(self) -> dict[str, Any] | None:
+        """Return what stored runs were made from; None where that cannot be read."""
+        try:
+            found = json.loads((self.staging / NOTE).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+        return found if isinstance(found, dict) else None
+
+    def _discard(self, description: dict[str, Any]) -> None:
+        """Remove stored runs, not without a word."""
+        if self._complete():
+            said = counted(len(self._complete()), "finished run")
+            said = f"{said} of an interrupted command thrown away"
+            before = self._stored()
+            if before is None:
+                said += f": {NOTE}, what they were made from, is damaged"
+            elif not difference(before, plain(but_for_runs(description))):
+                said += "; --resume would have kept what is whole"
+            self.notices.append(said)
+        if self.staging.exists():
+            shutil.rmtree(self.staging)
+
+    def _prepare(self, description: dict[str, Any]) -> None:
+        self.staging.mkdir()
+        write_atomically(self.staging / NOTE, json_text(but_for_runs(description)))
 
     def complete(self, description: dict[str, Any]) -> dict[str, Any] | None:
         """Return the manifest, if a finished command has left all its runs here.
 
+        If it has left fewer than there are to be, they are stored for `begin` to go on with.
+
         Raises
         ------
         ResultsError
-            It has, but they were made from another description.
+            It has, but they were made from another description, or are more.
         """
         if self.staging.exists() or not (self.path / MANIFEST).is_file():
             return None
         manifest = read_manifest(self.path)
-        if any(manifest.get(key) != value for key, value in plain(description).items()):
-            raise self._other()
-        return manifest
+        before = but_for_runs({key: manifest.get(key) for key in description})
+        self._compare(before, description, len(manifest.get("runs", [])))
+        if len(manifest["runs"]) == description["scenario"]["runs"]:
+            return manifest
+        try:
+            check_results(self.path)
+        except (ResultsError, MemoryFileError) as e:
+            self.notices.append(f"its runs are damaged and done anew ({e})")
+            return None
+        self._prepare(description)
+        for entry in manifest["runs"]:
+            copy_out(self.path, entry["run"], self.open_run(entry["run"]))
+            self.close_run(entry["run"], entry)
+        return None
 
-    def _other(self) -> ResultsError:
-        return ResultsError(
-            f"{self.path}: its runs were made from other settings or another version; resume "
-            "with the same ones, or without --resume to start anew"
-        )
+    def _compare(self, before: dict[str, Any], description: dict[str, Any], runs: int) -> None:
+        """Complain if the runs that are there are other ones than those of a description."""
+        differs = difference(before, plain(but_for_runs(description)))
+        if differs:
+            raise ResultsError(
+                f"{self.path}: its runs were made from other settings or another version: "
+                f"{differs}; resume with the same ones, or without --resume to start anew"
+            )
+        if runs > description["scenario"]["runs"]:
+            raise ResultsError(
+                f"{self.path}: holds {runs} runs, more than {description['scenario']['runs']}; "
+                f"resume with -n {runs} or more, or without --resume to start anew"
+            )
 
     def tidy(self) -> None:
         """Remove the separate runs once the tables hold all of them."""
@@ -165,7 +226,7 @@ class ResultsFolder:
     def close_run(self, run: int, entry: dict[str, Any]) -> None:
         """Declare a run complete."""
         partial = self.staging / f"run-{run:03d}.partial"
-        write_atomically(partial / "run.json", json_text(entry))
+        seal(partial, entry)
         partial.rename(partial.with_suffix(""))
 
     @property
@@ -174,100 +235,12 @@ class ResultsFolder:
         return bool(self._complete())
 
     def _entries(self) -> list[dict[str, Any]]:
-        return [
-            json.loads((folder / "run.json").read_text(encoding="utf-8"))
-            for folder in self._complete()
-        ]
+        return [entry_of(folder) for folder in self._complete()]
 
     def _complete(self) -> list[Path]:
         folders = self.staging.glob("run-*[0-9]")
-        return sorted(folders, key=lambda folder: int(folder.name.removeprefix("run-")))
+        return sorted(folders, key=number_of)
 
     def combine(self, description: dict[str, Any]) -> dict[str, Any]:
         """Put the complete runs together into the tables that users read; return the manifest."""
-        folders = self._complete()
-        entries = self._entries()
-        warnings = list(dict.fromkeys(text for entry in entries for text in entry["warnings"]))
-        for name, header in (("decisions.csv", tables.DECISIONS), ("path.csv", tables.PATH)):
-            self._join(name, csv_line(header), folders, skip=0)
-        self._join("landmarks.csv", csv_line(tables.LANDMARKS), folders, skip=1)
-        for name in ("topology", "trace", "figures"):
-            (self.path / name).mkdir(exist_ok=True)
-            for old in (self.path / name).iterdir():
-                if _RUN_FILE.fullmatch(old.name):
-                    old.unlink()
-        for name in MADE_FROM_ALL:
-            (self.path / name).unlink(missing_ok=True)
-        for folder in folders:
-            for source, target in (
-                ("topology.json", f"topology/{folder.name}.json"),
-                ("topology.graphml", f"topology/{folder.name}.graphml"),
-                ("trace.jsonl", f"trace/{folder.name}.jsonl"),
-                ("figures.json", f"figures/{folder.name}.json"),
-            ):
-                if (folder / source).is_file():  # a scenario may do without the trace
-                    _link(folder / source, self.path / target)
-        manifest: dict[str, Any] = plain(
-            {
-                "format": FORMAT,
-                "version": VERSION,
-                **description,
-                "warnings": warnings,
-                "runs": entries,
-            }
-        )
-        write_atomically(self.path / MANIFEST, json_text(manifest))
-        return manifest
-
-    def _join(self, name: str, header: str, folders: list[Path], *, skip: int) -> None:
-        temporary = self.staging / f"{name}.joined"
-        with temporary.open("wb") as out:
-            out.write(header.encode())
-            for folder in folders:
-                with (folder / name).open("rb") as part:
-                    for _ in range(skip):
-                        part.readline()
-                    shutil.copyfileobj(part, out)
-        temporary.replace(self.path / name)
-
-
-def _but_for_runs(description: dict[str, Any]) -> dict[str, Any]:
-    scenario = {key: value for key, value in description["scenario"].items() if key != "runs"}
-    return {**description, "scenario": scenario}
-
-
-def _link(source: Path, target: Path) -> None:
-    """Give a file a second name; copy it where the file system has no hard links."""
-    try:
-        target.hardlink_to(source)
-    except OSError:
-        shutil.copyfile(source, target)
-
-
-def read_manifest(path: Path) -> dict[str, Any]:
-    """Read the manifest of a results folder.
-
-    Raises
-    ------
-    ResultsError
-        The folder holds no results, or those of a newer version.
-    """
-    file = path / MANIFEST
-    if not file.is_file():
-        what = "no such folder" if not path.exists() else f"no results here ({MANIFEST} is missing)"
-        raise ResultsError(f"{path}: {what}")
-    try:
-        manifest: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
-    except ValueError as e:
-        raise ResultsError(f"{file}: is damaged: {e}") from None
-    if (
-        not isinstance(manifest, dict)
-        or manifest.get("format") != FORMAT
-        or not isinstance(manifest.get("version"), int)
-    ):
-        raise ResultsError(f"{file}: is not a results manifest")
-    if manifest["version"] > VERSION:
-        raise ResultsError(
-            f"{file}: results of version {manifest['version']}, this program reads up to {VERSION}"
-        )
-    return manifest
+        return join_runs(self.path, self._complete(), description)

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ssrics_like.errors import ResultsError
-from ssrics_like.results.folder import read_manifest
+from ssrics_like.results.manifest import read_manifest
 from ssrics_like.results.records import Landmark, Records, Reflex, Run
 
 Row = dict[str, str]
@@ -41,13 +41,26 @@ def read_records(folder: Path) -> Records:
         raise ResultsError(f"{folder / 'manifest.json'}: is damaged: runs: {e!r}") from None
     if not entries:
         raise ResultsError(f"{folder}: holds no complete run; there is nothing to report")
+    carried = _carried(folder, manifest)
     paths = _by_run(folder / "path.csv", started, _pose)
     reflexes = _by_run(folder / "decisions.csv", started, _reflex)
     landmarks = _by_run(folder / "landmarks.csv", started, _landmark)
     runs = tuple(
-        _run(entries[n], started[n], paths[n], reflexes[n], landmarks[n]) for n in sorted(entries)
+        replace(
+            _run(entries[n], started[n], paths[n], reflexes[n], landmarks[n]), carried_s=carried
+        )
+        for n in sorted(entries)
     )
     return Records(folder, manifest, runs)
+
+
+def _carried(folder: Path, manifest: dict[str, Any]) -> tuple[float, ...]:
+    """Return when the scenario has the robot carried elsewhere."""
+    try:
+        world = manifest["scenario"].get("world") or {}
+        return tuple(sorted(float(kidnap["at_s"]) for kidnap in world.get("kidnaps") or ()))
+    except (KeyError, TypeError, ValueError, AttributeError) as e:
+        raise ResultsError(f"{folder / 'manifest.json'}: is damaged: kidnaps: {e!r}") from None
 
 
 def _run(

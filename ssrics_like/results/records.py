@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 DECISIONS = ("declared", "recognised", "unsure", "dismissed", "overwritten")
 """Every decision, in the order in which figures and tables show them."""
 
+TIME_STEP_S = 1e-6
 MARKS = ("declared", "recognised")
 """The decisions that call a place a landmark."""
 
@@ -110,6 +111,8 @@ class Run:
         In order of the file.
     landmarks : tuple of Landmark
         In order of their making.
+    carried_s : tuple of float
+        When the robot was carried elsewhere, seconds since the start; simulated runs only.
     """
 
     number: int
@@ -119,6 +122,14 @@ class Run:
     is_true: bool
     reflexes: tuple[Reflex, ...]
     landmarks: tuple[Landmark, ...]
+    carried_s: tuple[float, ...] = ()
+
+    @property
+    def landings(self) -> NDArray[np.int64]:
+        """Indices of the poses of the path at which the robot was put down."""
+        # The tables' times are rounded.
+        at = np.searchsorted(self.path[:, 0], np.array(self.carried_s) - TIME_STEP_S)
+        return np.unique(at[(at > 0) & (at < len(self.path))])
 
     @property
     def name(self) -> str:

@@ -18,10 +18,13 @@ from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.productions.rulebook import RuleFile, load_rulebook
 from ssrics_like.results.checking import check_results
+from ssrics_like.results.counts import counted
+from ssrics_like.results.listing import has_variants, read_listing
+from ssrics_like.results.manifest import MANIFEST, unfinished
 from ssrics_like.scenarios.feeds import open_source
 from ssrics_like.scenarios.resolving import load_resolved
 from ssrics_like.scenarios.schema import Scenario, read_scenario
-from ssrics_like.scenarios.variants import VARIANTS, resolve_variants
+from ssrics_like.scenarios.variants import resolve_variants
 from ssrics_like.sources import open_log
 from ssrics_like.world.robot import RobotProfile
 
@@ -41,23 +44,60 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
     SettingsError, RuleError, LibraryError, MapError, SourceError, ResultsError
         What is wrong with it.
     """
-    if (path / VARIANTS).is_file():
-        folders = sorted(manifest.parent for manifest in path.glob("*/manifest.json"))
-        for done, folder in enumerate(folders, 1):
-            check_results(folder)
-            progress(done / len(folders))
-        return f"results of {len(folders)} variants"
+    if has_variants(path):
+        return _variants(path, progress)
     if path.is_dir():
         manifest = check_results(path)
-        return f"results of {len(manifest['runs'])} run(s), frame {manifest['frame']}"
+        far = unfinished(manifest) or counted(len(manifest["runs"]), "run")
+        return f"results, {far}; frame {manifest['frame']}"
     if path.suffix in SUFFIXES:
         kind = _kind(path)
         return f"{kind}, {YAML_KINDS[kind](path)}"
     return _log(path, progress)
 
 
+def _variants(path: Path, progress: Callable[[float], None]) -> str:
+    listed = read_listing(path).variants
+    unlike = []
+    for done, variant in enumerate(listed, 1):
+        folder = path / variant.name
+        if (folder / MANIFEST).is_file():
+            far = unfinished(check_results(folder))
+            unlike += [f"{variant.name}: {far}"] if far else []
+        else:
+            unlike.append(f"{variant.name}: no run is complete; --resume goes on")
+        progress(done / len(listed))
+    said = counted(len(listed), "variant")
+    return f"results of {said}" + (f", not finished: {', '.join(unlike)}" if unlike else "")
+
+
+def expect_scenario(path: Path) -> None:
+    """Say of a file that is no scenario at all what it is, instead of complaining of each key.
+
+    Raises
+    ------
+    SettingsError
+        It is something else, or cannot be read.
+    """
+    if path.is_file() and path.suffix not in SUFFIXES:
+        raise SettingsError(
+            f"{path}: is no YAML file, expected a scenario (ssrics replay takes logs)"
+        )
+    kind = _kind_of(path)
+    if kind not in ("", "scenario"):
+        raise SettingsError(f"{path}: is a {kind}, expected a scenario")
+
+
 def _kind(path: Path) -> str:
-    """Tell a YAML file's kind: the one that knows most of its keys."""
+    """Tell a YAML file's kind."""
+    kind = _kind_of(path)
+    if not kind:
+        raise SettingsError(f"{path}: none of its keys is known; expected a {choices(KINDS)}")
+    return kind
+
+
+def _kind_of(path: Path) -> str:
+    """Tell a YAML file's kind: the one that knows most of its keys; empty if none knows any."""
     data = settings.read_document(path).data
     # `source` is a log's in a scenario, and a line of text everywhere else.
     keys = {key for key in data if key != "source" or isinstance(data[key], dict)}
@@ -71,38 +111,37 @@ def _kind(path: Path) -> str:
         "robot": set(RobotProfile.model_fields) - {"title", "source"},
     }
     best = max(known, key=lambda kind: len(known[kind] & keys))
-    if not known[best] & keys:
-        raise SettingsError(f"{path}: none of its keys is known; expected a {choices(KINDS)}")
-    return best
+    return best if known[best] & keys else ""
 
 
 def _rules(path: Path) -> str:
     book = load_rulebook(path)
-    return f"'{book.title}', {len(book.rules)} rules"
+    return f"'{book.title}', {counted(len(book.rules), 'rule')}"
 
 
 def _scenario(path: Path) -> str:
     scenario, document = read_scenario(path)
     if scenario.factors or scenario.variants:
         variants = resolve_variants(scenario, path.parent, where=document.where)
-        return f"'{scenario.title}', {len(variants)} variants of {scenario.runs} run(s)"
+        each = counted(scenario.runs, "run")
+        return f"'{scenario.title}', {counted(len(variants), 'variant')} of {each}"
     resolved = load_resolved(path)
     if resolved.log:
         open_source(resolved)
-    return f"'{scenario.title}', {scenario.runs} run(s) of {resolved.source_name}"
+    return f"'{scenario.title}', {counted(scenario.runs, 'run')} of {resolved.source_name}"
 
 
 def _map(path: Path) -> str:
     building = load_building(path)
     width_m, height_m = building.grid.size_m
-    places = len(building.locations)
-    return f"'{building.title}', {width_m:g} x {height_m:g} m, {places} labelled place(s)"
+    places = counted(len(building.locations), "labelled place")
+    return f"'{building.title}', {width_m:g} x {height_m:g} m, {places}"
 
 
 def _plan(path: Path) -> str:
     plan = load_plan(path)
     size = f"{plan.width_m:g} x {plan.height_m:g} m"
-    return f"'{plan.title}', {size}, {len(plan.locations)} labelled place(s)"
+    return f"'{plan.title}', {size}, {counted(len(plan.locations), 'labelled place')}"
 
 
 def _profile(
@@ -121,7 +160,7 @@ def _log(path: Path, progress: Callable[[float], None]) -> str:
         if scans % PROGRESS_EVERY == 0:
             progress(source.progress)
     said = "; ".join(source.report.warnings())
-    what = f"{source.format} log, {scans} scans, frame {source.frame}"
+    what = f"{source.format} log, {counted(scans, 'scan')}, frame {source.frame}"
     return f"{what}; {said}" if said else what
 
 

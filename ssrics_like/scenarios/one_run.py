@@ -13,6 +13,7 @@ import numpy as np
 
 from ssrics_like.model import CognitiveModel
 from ssrics_like.perception.observation import Observation
+from ssrics_like.results.counts import counted
 from ssrics_like.results.recorder import JUMP_M, JUMP_M_S, Recorder
 from ssrics_like.scenarios.feeds import Feed, make_feed
 from ssrics_like.scenarios.resolving import Resolved
@@ -129,19 +130,22 @@ def _warnings(resolved: Resolved, entry: dict[str, Any]) -> list[str]:
     found = []
     if not entry["novelty"]["intervals"]:
         found.append(
-            f"the {'log' if resolved.log else 'drive'} has {entry['scans']} scans, fewer than one "
-            f"interval of {resolved.perception.interval}: nothing can be novel"
+            f"the {'log' if resolved.log else 'drive'} has {counted(entry['scans'], 'scan')}, "
+            f"fewer than one interval of {resolved.perception.interval}: nothing can be novel"
         )
     if entry["jumps"] and resolved.log:
         found.append(
-            f"the robot's pose jumped {entry['jumps']} times by more than {JUMP_M:g} m and faster "
-            f"than {JUMP_M_S:g} m/s; the path's length and the places of landmarks suffer from it"
+            f"the robot's pose jumped {counted(entry['jumps'], 'time')} by more than "
+            f"{JUMP_M:g} m and faster than {JUMP_M_S:g} m/s; the path's length and the places of "
+            "landmarks suffer from it"
         )
     if entry["undecided"]:
-        found.append(f"{entry['undecided']} reflexes were still undecided at the end of the run")
+        count = entry["undecided"]
+        reflexes = "1 reflex was" if count == 1 else f"{count} reflexes were"
+        found.append(f"{reflexes} still undecided at the end of the run")
     if entry["restarts"]:
         found.append(
-            f"the laser changed {entry['restarts']} times (beams or angles); each time the "
-            "interval of the novelty algorithm began anew"
+            f"the laser changed {counted(entry['restarts'], 'time')} (beams or angles); "
+            "each time the interval of the novelty algorithm began anew"
         )
     return found

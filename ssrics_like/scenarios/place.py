@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from ssrics_like.errors import MapError, SettingsError, nearest
+from ssrics_like.errors import MapError, SettingsError
 from ssrics_like.maps import load_building, load_locations
 from ssrics_like.perception.observation import Pose
+from ssrics_like.scenarios.problems import unknown_location
 from ssrics_like.scenarios.world_settings import WorldSettings
 from ssrics_like.settings import Key
 from ssrics_like.world.building import Building
@@ -166,8 +167,7 @@ def _doors(
         key: Key = ("world", "doors", i, "location" if door.location is not None else "at")
         if door.location is not None:
             if door.location not in known:
-                hint = nearest(door.location, known) or f"; it has {', '.join(known) or 'none'}"
-                complain(key, f"the map has no location '{door.location}'{hint}")
+                complain(key, unknown_location(door.location, known))
                 continue
             location = known[door.location]
             place = [location.x_m, location.y_m]

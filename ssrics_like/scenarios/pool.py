@@ -74,8 +74,15 @@ def carry_out_all(tasks: Sequence[Task], jobs: int, progress: Progress, done: Do
             pool.shutdown(cancel_futures=True)
 
 
-def over_processes(function: Callable[[Path], object], paths: Sequence[Path], jobs: int) -> None:
+def over_processes(
+    function: Callable[[Path], object],
+    paths: Sequence[Path],
+    jobs: int,
+    done: Callable[[], object] = lambda: None,
+) -> None:
     """Call a function of a module for each path, in processes of their own if there are several.
+
+    `done` is called after each.
 
     Raises
     ------
@@ -85,13 +92,14 @@ def over_processes(function: Callable[[Path], object], paths: Sequence[Path], jo
     if min(jobs, len(paths)) <= 1:
         for path in paths:
             function(path)
+            done()
         return
     context = multiprocessing.get_context("forkserver")
     with ProcessPoolExecutor(
         min(jobs, len(paths)), mp_context=context, initializer=_prepare
     ) as pool:
         for _ in pool.map(function, paths):
-            pass
+            done()
 
 
 def _collect(

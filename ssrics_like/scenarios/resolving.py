@@ -22,6 +22,7 @@ from ssrics_like.scenarios.modules import (
     load_robot,
 )
 from ssrics_like.scenarios.place import Place, place_of
+from ssrics_like.scenarios.problems import Problems
 from ssrics_like.scenarios.schema import MODULES, Scenario, at, read_scenario
 from ssrics_like.scenarios.world_settings import Strict
 
@@ -140,39 +141,44 @@ def resolve(
     changes = _by_module({k: v for k, v in typed.items() if "." in k}, heads)
     own = {k: v for k, v in typed.items() if k.partition(".")[0] in Scenario.model_fields
            and not any(k.startswith(f"{head}.") for head in heads)}  # fmt: skip
-    problems = [
-        _unknown(_place(where, ("set", key)), key, heads, ())
+    problems = Problems()
+    problems.lines += [
+        _unknown(_place(where, ("set", key)) or "set.", key, heads, ())
         for key in scenario.set
         if not any(key.startswith(f"{head}.") for head in heads)
     ]
-    problems += [
+    problems.lines += [
         _unknown("--set ", key, heads, Scenario.model_fields)
         for key in typed
         if key not in own and not any(key.startswith(f"{head}.") for head in heads)
     ]
-    if problems:
-        raise SettingsError("\n".join(problems))
 
     def changed(settings_of: Settings, head: str) -> Settings:
         """Apply what the scenario's `set` says, then what was typed."""
-        label = f"{_place(where, ('set',))}set."
+
+        def label(dotted: str) -> str:
+            return _place(where, ("set", f"{head}.{dotted}")) or "set."
+
         first = settings.override(settings_of, written[head], f"{head}.", label)
         return settings.override(first, changes[head], f"{head}.")
 
-    scenario = settings.override(scenario, own, "")
+    with problems.gathered():
+        scenario = settings.override(scenario, own, "")
     # A path that was typed starts where it was typed; one in a scenario file, at that file.
     start = {
         key: Path() if key in own else base
         for key in (*MODULES, "source.log", "world.map", "world.robot", "world.locations", "humans")
     }
-    perception = load_perception(at(start["perception"], scenario.perception))
-    book = load_productions(at(start["productions"], scenario.productions))
-    memory = load_memory(at(start["memory"], scenario.memory))
-    engine = changed(_Engine(parameters=book.parameters), "productions")
+    with problems.gathered():
+        perception = load_perception(at(start["perception"], scenario.perception))
+        perception = changed(perception, "perception")
+    with problems.gathered():
+        book = load_productions(at(start["productions"], scenario.productions))
+        engine = changed(_Engine(parameters=book.parameters), "productions")
+    with problems.gathered():
+        memory = changed(load_memory(at(start["memory"], scenario.memory)), "memory")
     place = None
     if scenario.world is not None:
-        robot = load_robot(at(start["world.robot"], scenario.world.robot))
-        robot = changed(robot, "robot")
         typed_keys = [tuple(key.split(".")) for key in own]
 
         def said_at(key: settings.Key) -> str:
@@ -180,17 +186,22 @@ def resolve(
                 return "--set"
             return where(key) if where else ""
 
-        place = place_of(scenario.world, robot, start, said_at)
-        _check_published(scenario, place, said_at)
-    if scenario.humans is not None:
-        load_choices(start["humans"] / scenario.humans)
+        with problems.gathered():
+            robot = load_robot(at(start["world.robot"], scenario.world.robot))
+            robot = changed(robot, "robot")
+            place = place_of(scenario.world, robot, start, said_at)
+            _check_published(scenario, place, said_at)
+    with problems.gathered():
+        if scenario.humans is not None:
+            load_choices(start["humans"] / scenario.humans)
+    problems.complain()
     return Resolved(
         scenario=scenario,
         log=start["source.log"] / scenario.source.log if scenario.source else None,
         place=place,
-        perception=changed(perception, "perception"),
+        perception=perception,
         productions=replace(book, parameters=engine.parameters),
-        memory=changed(memory, "memory"),
+        memory=memory,
     )
 
 
@@ -221,7 +232,8 @@ def _by_module(values: dict[str, Any], heads: tuple[str, ...]) -> dict[str, dict
 
 
 def _place(where: Callable[[settings.Key], str] | None, key: settings.Key) -> str:
-    return f"{where(key)}: " if where else ""
+    place = where(key) if where else ""
+    return f"{place}: " if place else ""
 
 
 def _unknown(place: str, key: str, heads: tuple[str, ...], fields: Iterable[str]) -> str:

@@ -26,6 +26,9 @@ from ssrics_like.scenarios.resolving import Resolved
 Progress = Callable[[int, float], None]
 """Called now and then with a run's number and the share of it that is done."""
 
+Say = Callable[[str], None]
+"""Called with a line that the user should read, before the runs begin."""
+
 JOINING_SHARE = 0.1
 """Tables are put together anew after a run, but for no more than this share of the time."""
 
@@ -37,6 +40,7 @@ def run_scenario(
     resume: bool = False,
     jobs: int = 1,
     progress: Progress = lambda _run, _share: None,
+    say: Say = lambda _: None,
 ) -> dict[str, Any]:
     """Carry out every run of a scenario.
 
@@ -52,6 +56,8 @@ def run_scenario(
         How many runs at the same time, each in a process of its own; the results are the same.
     progress : callable
         See `Progress`.
+    say : callable
+        See `Say`.
 
     Returns
     -------
@@ -63,7 +69,9 @@ def run_scenario(
     SourceError, ResultsError, EngineError
         The log cannot be read, the folder cannot be written, the rules never come to rest.
     """
-    (manifest,) = run_side_by_side([(resolved, out)], resume=resume, jobs=jobs, progress=progress)
+    (manifest,) = run_side_by_side(
+        [(resolved, out)], resume=resume, jobs=jobs, progress=progress, say=say
+    )
     return manifest
 
 
@@ -73,6 +81,7 @@ def run_side_by_side(
     resume: bool = False,
     jobs: int = 1,
     progress: Progress = lambda _task, _share: None,
+    say: Say = lambda _: None,
 ) -> list[dict[str, Any]]:
     """Carry out several scenarios; those with the same drives share them.
 
@@ -80,7 +89,7 @@ def run_side_by_side(
     ----------
     scenarios : sequence of (Resolved, Path)
         Each with its results folder.
-    resume, jobs : as `run_scenario`
+    resume, jobs, say : as `run_scenario`
     progress : callable
         Called with the number of a task: of a run, shared by the scenarios with the same drives.
 
@@ -102,6 +111,8 @@ def run_side_by_side(
         ]
         for work in works:
             work.begin(resume=resume)
+            for notice in work.folder.notices:
+                say(f"{work.folder.path}: {notice}")
         shared: dict[tuple[str, int], list[_Work]] = {}
         for work in works:
             for run in work.missing:

@@ -9,7 +9,9 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, ValidationError, field_validator, model_validator
 
 from ssrics_like import library, settings
-from ssrics_like.errors import LibraryError, SettingsError
+from ssrics_like.errors import LibraryError, MapError, SettingsError
+from ssrics_like.maps import load_building, load_locations
+from ssrics_like.scenarios.problems import unknown_location
 from ssrics_like.scenarios.world_settings import Strict, WorldSettings
 
 MODULES = ("perception", "productions", "memory")
@@ -154,7 +156,7 @@ def read_scenario(path: Path) -> tuple[Scenario, settings.Document]:
     try:
         scenario = settings.validated(Scenario, document)
     except SettingsError as e:
-        problems += str(e).splitlines()
+        problems += [*str(e).splitlines(), *_unknown_doors(document)]
     if problems:
         raise SettingsError("\n".join(settings.in_order(problems)))
     return scenario, document
@@ -189,6 +191,32 @@ def _missing_files(document: settings.Document) -> list[str]:
             said = "is a folder" if (base / name).is_dir() else "no such file"
             dotted = ".".join(map(str, key))
             problems.append(f"{document.where(key)}: {dotted}: {base / name}: {said}")
+    return problems
+
+
+def _unknown_doors(document: settings.Document) -> list[str]:
+    """Complain of doors that the map has not; where all else is right, `place_of` does it."""
+    plan, table, doors = (
+        _value(document.data, ("world", key)) for key in ("map", "locations", "doors")
+    )
+    base = document.path.parent
+    try:
+        if isinstance(table, str):
+            found = load_locations(base / table)
+        elif isinstance(plan, str):
+            found = load_building(base / plan).locations
+        else:
+            return []
+    except MapError:
+        return []  # is said of the map itself
+    known = [location.id for location in found]
+    problems = []
+    for i, door in enumerate(doors if isinstance(doors, list) else ()):
+        name = _value(door, ("location",))
+        if isinstance(name, str) and name not in known:
+            key = ("world", "doors", i, "location")
+            said = unknown_location(name, known)
+            problems.append(f"{document.where(key)}: {'.'.join(map(str, key))}: {said}")
     return problems
 
 

@@ -3,76 +3,74 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
-from dataclasses import dataclass
+import math
 from pathlib import Path
 from typing import Any
 
 from ssrics_like import settings
-from ssrics_like.errors import ResultsError, SettingsError, choices, nearest
-from ssrics_like.results.files import json_text, write_atomically
-from ssrics_like.results.folder import MANIFEST
-from ssrics_like.scenarios.resolving import Resolved, resolve
-from ssrics_like.scenarios.runner import Progress, run_side_by_side
-from ssrics_like.scenarios.schema import MODULES, NAME, Scenario, make_scenario
+from ssrics_like.errors import ResultsError, SettingsError
+from ssrics_like.results.listing import Listing, Variant, write_listing
+from ssrics_like.results.manifest import MANIFEST
+from ssrics_like.scenarios.pieces import Where, problems_of, resolve_with
+from ssrics_like.scenarios.problems import Problems
+from ssrics_like.scenarios.resolving import Resolved
+from ssrics_like.scenarios.runner import Progress, Say, run_side_by_side
+from ssrics_like.scenarios.schema import NAME, Scenario
 
-FORMAT, VERSION = "ssrics-variants", 1
-VARIANTS = "variants.json"
 VARIANTS_MAX = 1000
+NO_FOLDER = "cannot name a folder; expected letters, digits, dots, dashes and spaces"
 
 
-@dataclass(frozen=True)
-class Variant:
-    """A scenario with some values changed.
-
-    Attributes
-    ----------
-    name, title : str
-        Its folder, and what it is.
-    factors : dict
-        Name of a factor -> the level that it has here.
-    set : dict
-        What is changed.
-    """
-
-    name: str
-    title: str
-    factors: dict[str, str]
-    set: dict[str, Any]
-
-
-def variants_of(scenario: Scenario) -> list[Variant]:
+def variants_of(scenario: Scenario, where: Where | None = None) -> list[Variant]:
     """Return every combination of the scenario's factors, then its single variants.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        As read.
+    where : callable, optional
+        Gives the place of a key in the scenario's file, for messages.
 
     Raises
     ------
     SettingsError
-        Two have the same name, or there are too many.
+        With one line for each name that cannot name a folder or is there twice; or there are too
+        many.
     """
-    found: list[Variant] = []
-    if scenario.factors:
-        names = list(scenario.factors)
-        for levels in itertools.product(*scenario.factors.values()):
-            chosen = dict(zip(names, levels, strict=True))
-            values: dict[str, Any] = {}
-            for factor, level in chosen.items():
-                values |= scenario.factors[factor][level]
-            folder = "_".join(level.replace(" ", "-") for level in levels)
-            found.append(Variant(folder, ", ".join(levels), chosen, values))
-    found += [Variant(v.name, v.title or v.name, {}, v.set) for v in scenario.variants]
+    found: list[tuple[Variant, settings.Key]] = []
+    names = list(scenario.factors)
+    combinations = itertools.product(*scenario.factors.values()) if names else ()
+    for levels in itertools.islice(combinations, VARIANTS_MAX + 1):
+        chosen = dict(zip(names, levels, strict=True))
+        values: dict[str, Any] = {}
+        for factor, level in chosen.items():
+            values |= scenario.factors[factor][level]
+        folder = "_".join(level.replace(" ", "-") for level in levels)
+        variant = Variant(folder, ", ".join(levels), chosen, values)
+        found.append((variant, ("factors", names[-1], levels[-1])))
+    found += [
+        (Variant(v.name, v.title or v.name, {}, v.set), ("variants", i, "name"))
+        for i, v in enumerate(scenario.variants)
+    ]
     if len(found) > VARIANTS_MAX:
-        raise SettingsError(f"{len(found)} variants are more than {VARIANTS_MAX}")
+        count = math.prod(map(len, scenario.factors.values())) if names else 0
+        count += len(scenario.variants)
+        raise SettingsError(f"{count} variants are more than {VARIANTS_MAX}")
+    problems: list[tuple[settings.Key, str]] = [
+        (("factors", factor, level), f"factor '{factor}', level '{level}': {NO_FOLDER}")
+        for factor, levels in scenario.factors.items()
+        for level in levels
+        if not NAME.fullmatch(level.replace(" ", "-"))
+    ]
     seen: set[str] = set()
-    for variant in found:
-        if not NAME.fullmatch(variant.name):
-            raise SettingsError(
-                f"factors: '{variant.name}' cannot name a folder; expected levels of letters, "
-                "digits, dots, dashes and spaces"
-            )
+    for variant, key in found:
         if variant.name in seen:
-            raise SettingsError(f"variants: two are called '{variant.name}'")
+            problems.append((key, f"variants: two are called '{variant.name}'"))
         seen.add(variant.name)
-    return found
+    if problems:
+        said = [f"{where(key)}: {text}" if where else text for key, text in problems]
+        raise SettingsError("\n".join(said))
+    return [variant for variant, _ in found]
 
 
 def resolve_variants(
@@ -80,33 +78,28 @@ def resolve_variants(
     base: Path,
     overrides: list[str] | None = None,
     *,
-    where: Callable[[settings.Key], str] | None = None,
+    where: Where | None = None,
 ) -> list[tuple[Variant, Resolved]]:
-    """Resolve each variant of a scenario; parameters and errors as `resolving.resolve`."""
-    found = []
-    for variant in variants_of(scenario):
-        modules = {key: value for key, value in variant.set.items() if "." not in key}
-        unknown = [key for key in modules if key not in MODULES]
-        if unknown:
-            raise SettingsError(
-                f"variant '{variant.name}' sets unknown key '{unknown[0]}'"
-                f"{nearest(unknown[0], MODULES)}; known: {choices(MODULES)} and single values "
-                "as memory.decay or world.people.count"
-            )
-        own = {k: v for k, v in variant.set.items() if k.startswith(("world.", "source."))}
-        single = {k: v for k, v in variant.set.items() if k not in modules and k not in own}
-        data = scenario.model_dump()
-        data |= {**modules, "set": {**scenario.set, **single}, "factors": {}, "variants": []}
-        data["title"] = f"{scenario.title}: {variant.title}"
-        try:
-            changed = settings.override(make_scenario(data), own, "")
-            found.append((variant, resolve(changed, base, overrides, where=where)))
-        except SettingsError as e:
-            said = "\n".join(
-                f"variant '{variant.name}': {line.removeprefix('--set ')}"
-                for line in str(e).splitlines()
-            )
-            raise SettingsError(said) from None
+    """Resolve each variant of a scenario.
+
+    Parameters and errors as of `resolving.resolve`; what is wrong with levels and variants is
+    said of all of them at once.
+    """
+    found: list[tuple[Variant, Resolved]] = []
+    variants: list[Variant] = []
+    problems, together = Problems(), Problems()
+    with problems.gathered():
+        variants = variants_of(scenario, where)
+    for variant in variants:
+        with together.gathered(f"variant '{variant.name}': "):
+            title = f"{scenario.title}: {variant.title}"
+            each = resolve_with(scenario, variant.set, title, base, overrides, where)
+            found.append((variant, each))
+    if problems.lines or together.lines:
+        problems.lines += problems_of(scenario, base, overrides, where)
+        # Where each piece is right by itself, some do not go together.
+        problems.lines = settings.in_order(problems.lines or together.lines)
+        problems.complain()
     return found
 
 
@@ -118,6 +111,7 @@ def run_variants(
     resume: bool = False,
     jobs: int = 1,
     progress: Progress = lambda _task, _share: None,
+    say: Say = lambda _: None,
 ) -> list[dict[str, Any]]:
     """Carry out all variants, each into a results folder below `out`.
 
@@ -129,16 +123,7 @@ def run_variants(
         raise ResultsError(
             f"{out}: holds the results of a single scenario; name another folder for variants"
         )
-    data = {
-        "format": FORMAT,
-        "version": VERSION,
-        "title": scenario.title,
-        "description": scenario.description,
-        "variants": [
-            {"name": v.name, "title": v.title, "factors": v.factors, "set": v.set}
-            for v, _ in resolved
-        ],
-    }
     out.mkdir(parents=True, exist_ok=True)
-    write_atomically(out / VARIANTS, json_text(data))
-    return run_side_by_side(pairs, resume=resume, jobs=jobs, progress=progress)
+    listed = tuple(variant for variant, _ in resolved)
+    write_listing(out, Listing(scenario.title, scenario.description, listed))
+    return run_side_by_side(pairs, resume=resume, jobs=jobs, progress=progress, say=say)

@@ -97,10 +97,13 @@ class DoorSettings(Strict):
 
     @model_validator(mode="after")
     def _one_place(self) -> Self:
+        wrong = []
         if (self.location is None) == (self.at is None):
-            raise ValueError("a door has either location or at")
+            wrong.append("a door has either location or at")
         if self.opens_s is not None and self.opens_s <= self.closes_s:
-            raise ValueError(f"opens_s is {self.opens_s:g}, not after closes_s {self.closes_s:g}")
+            wrong.append(f"opens_s is {self.opens_s:g}, not after closes_s {self.closes_s:g}")
+        if wrong:
+            raise ValueError("; ".join(wrong))
         return self
 
 

@@ -51,8 +51,8 @@ class Route:
     ) -> None:
         self.notes: list[str] = []
         self._left = [
-            (waypoint, name)
-            for _ in range(repeat)
+            (waypoint, name if repeat == 1 else f"{name} of lap {lap}")
+            for lap in range(1, repeat + 1)
             for waypoint, name in zip(waypoints, names, strict=True)
         ]
         self._solid = solid
