@@ -268,7 +268,8 @@ class LandmarkModules:
                 event=reflex.event,
                 scan=reflex.scan,
                 t_s=reflex.t_s,
-                decided_s=self._start_s + t_s,
+                # Engine time has its own zero: the sum may round to just before the percept.
+                decided_s=max(self._start_s + t_s, reflex.perceived_s),
                 pose=reflex.pose,
                 true_pose=reflex.true_pose,
                 modality=reflex.modality,

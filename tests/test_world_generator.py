@@ -159,7 +159,7 @@ def test_extreme_settings_make_buildings_too(hallways):
         ({"rooms": 1}, "greater than or equal to 2"),
         ({"rooms": 6, "hallways": "ring"}, "rooms: 6: expected at least 7"),
         ({"hallways": "S"}, "'straight', 'L'"),
-        ({"doorway_m": (0.8, 1.0)}, "within 0.85 and 1.6"),
+        ({"doorway_m": (0.8, 1.0)}, "within 0.85 and 1.8"),
         ({"doorway_m": (1.0, 0.9)}, "rising"),
         ({"scale": [1.0]}, "expected two numbers"),
         ({"clutter": 1.5}, "less than or equal to 1"),
