@@ -36,6 +36,10 @@ class LibraryError(SsricsError, LookupError):
     """No library entry or file has the name that was asked for."""
 
 
+class CueError(SsricsError, ValueError):
+    """A file of what was learned is damaged, or of other measures than this version takes."""
+
+
 class MapError(SsricsError, ValueError):
     """A map, a plan or a table of places is wrong; one line for each problem."""
 

@@ -50,6 +50,29 @@ def entries(kind: str) -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder(kind).glob("*.yaml"))}
 
 
+def find_cue(name: str) -> Path:
+    """Return the file of a learned cue: an entry of the perception folder, or a path.
+
+    Raises
+    ------
+    LibraryError
+        No entry or file has this name.
+    """
+    known = {path.stem: path for path in sorted(folder("perception").glob("*.json"))}
+    if "/" in name or "\\" in name or name.endswith(".json"):
+        path = Path(name)
+        if path.is_file():
+            return path
+        what = "is a folder, expected a JSON file" if path.is_dir() else "no such file"
+        raise LibraryError(f"{path}: {what}")
+    if name in known:
+        return known[name]
+    raise LibraryError(
+        f"no cue '{name}'{nearest(name, known)}; "
+        f"the library has {choices(known)} (a path ends in .json)"
+    )
+
+
 def find(kind: str, name: str | Path) -> Path:
     """Return the file of a library entry, or of the user's own file.
 

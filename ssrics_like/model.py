@@ -10,8 +10,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssrics_like.cues import read_cue
 from ssrics_like.decision import Decision
 from ssrics_like.errors import choices
+from ssrics_like.library import find_cue
 from ssrics_like.memory import DeclarativeMemory, Retrieval, TopologicalMemory
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.modules import LandmarkModules
@@ -46,6 +48,11 @@ class CognitiveModel:
     retrieved : callable, optional
         Receives (engine time, Retrieval) for every retrieval, with each candidate's activation.
 
+    Raises
+    ------
+    LibraryError, CueError
+        There is no cue of the name in `perception`; it is damaged.
+
     Examples
     --------
     >>> from ssrics_like import CognitiveModel, load_memory, load_perception, load_productions
@@ -71,7 +78,8 @@ class CognitiveModel:
         if frame != "odometry":
             memory = memory.model_copy(update={"place_drift": 0.0})
         memory_seed, utility_seed = np.random.SeedSequence(seed).spawn(2)
-        self.perception = PerceptionBuffer(perception)
+        doorways = read_cue(find_cue(perception.doorways)) if perception.doorways else None
+        self.perception = PerceptionBuffer(perception, doorways)
         self._decisions: list[Decision] = []
         self._modules = LandmarkModules(
             memory, np.random.default_rng(memory_seed), self._decisions.append, retrieved

@@ -65,7 +65,7 @@ def test_a_cap_of_eighty_metres_leaves_no_bored_interval(data_dir):
 def test_peaks_are_few_and_their_places_lie_on_the_path(data_dir):
     marks = 0
     for log, scans, _ in WEAN:
-        _, fired = replay(data_dir, log, profile("human-like"))
+        _, fired = replay(data_dir, log, PerceptionProfile())
         seen = observations(data_dir / "logs" / f"{log}.log")
         marks += len(fired)
         for reflex in fired:
@@ -77,7 +77,7 @@ def test_peaks_are_few_and_their_places_lie_on_the_path(data_dir):
 
 
 def test_streaming_and_batch_agree_on_a_real_log(data_dir):
-    settings = profile("human-like")
+    settings = PerceptionProfile()
     buffer = PerceptionBuffer(settings)
     taus = []
     seen = observations(data_dir / "logs" / "wean-2.log")

@@ -23,9 +23,14 @@ def test_the_reports_profile_has_the_reports_values():
     assert (profile.sector_rule, profile.repair_window) == ("maximum", 0)
 
 
-def test_the_defaults_are_those_of_the_human_like_profile():
-    nameless = load("human-like").model_copy(update={"title": "", "source": ""})
-    assert nameless == PerceptionProfile()
+def test_the_defaults_are_those_of_the_human_like_profile_but_for_what_it_looks_along():
+    plain = {"title": "", "source": "", "along": "scans", "doorways": "", "interval": 20}
+    assert load("human-like").model_copy(update=plain) == PerceptionProfile()
+
+
+def test_a_cue_needs_places_along_the_way():
+    with pytest.raises(ValidationError, match="set along: metres"):
+        PerceptionProfile(doorways="doorways")
 
 
 def test_every_key_of_a_shipped_profile_is_described_in_its_readme():

@@ -528,7 +528,12 @@ def test_a_robot_that_jumps_and_a_log_too_short_are_said(tmp_path):
     assert any("pose jumped 2 times" in text for text in manifest["warnings"])
     (tmp_path / "short.log").write_text("\n".join(lines[:15]) + "\n")
     manifest = run_scenario(scenario(tmp_path / "short.log"), tmp_path / "short")
-    assert any("fewer than one interval of 20" in text for text in manifest["warnings"])
+    assert any("hardly longer than one interval of 1.2 m" in t for t in manifest["warnings"])
+    plain = scenario(
+        tmp_path / "short.log", set={"perception.along": "scans", "perception.doorways": ""}
+    )
+    manifest = run_scenario(plain, tmp_path / "plain")
+    assert any("fewer than one interval of 12" in text for text in manifest["warnings"])
 
 
 def test_a_log_that_stops_the_run_leaves_nothing_behind(tmp_path):

@@ -437,7 +437,7 @@ def test_variants_say_what_they_found_and_what_did_not_go_as_planned(folder, tmp
     )
     path, out = folder / "shut.yaml", tmp_path / "out"
     path.write_text(
-        f"title: Shut\nworld:\n  map: two.yaml\n  start: {near}\n  repeat: 2\n"
+        f"title: Shut\nperception: report\nproductions: report\nworld:\n  map: two.yaml\n  start: {near}\n  repeat: 2\n"
         f"  waypoints: [{near}, {beyond}]\n  doors: [{{location: door}}]\n"
         "variants: [{name: one}, {name: two, set: {perception.interval: 30}}]\n"
     )

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 import ssrics_like
-from ssrics_like.cli import check, compare, library, maps, replay, report, run, schema
+from ssrics_like.cli import check, compare, library, maps, replay, report, run, schema, train
 from ssrics_like.errors import SsricsError
 
 USER_ERROR = 1
@@ -41,6 +41,7 @@ app.command(library.list_entries, name="list", help_epilogue="")
 app.command(library.show, help_epilogue="")
 app.command(report.report, help_epilogue="")
 app.command(schema.schema, help_epilogue="")
+app.command(train.train, help_epilogue="")
 map_app = App(
     name="map",
     help="Draw floor plans, make buildings up, look at maps.",

@@ -21,9 +21,10 @@ from ssrics_like.perception.novelty import (
     novelty_profile,
     scan_correlations,
 )
+from ssrics_like.perception.novelty_watch import IntervalExample
 from ssrics_like.perception.observation import LaserScan, Observation, Pose
 from ssrics_like.perception.profile import PerceptionProfile
-from ssrics_like.perception.reflex import IntervalExample, PerceptionBuffer, Reflex
+from ssrics_like.perception.reflex import PerceptionBuffer, Reflex
 from ssrics_like.perception.sectors import Sector, SectorClassifier, classify
 from ssrics_like.perception.view import describe_view
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from ssrics_like.perception.conditioning import is_window
 from ssrics_like.perception.marking import Mark
@@ -15,6 +15,7 @@ from ssrics_like.perception.novelty import (
 from ssrics_like.perception.sectors import SectorRule
 
 Anchor = Literal["newest", "middle", "oldest"]
+Along = Literal["scans", "metres"]
 Fraction = Annotated[float, Field(gt=0.0, lt=1.0)]
 
 
@@ -32,6 +33,11 @@ class PerceptionProfile(BaseModel):
         Metres. Readings from here on, and no-return values, are set to it.
     repair_window : int
         Beams of the median that repairs dropouts, odd; 0 turns repair off.
+    along : {"scans", "metres"}
+        What intervals count: scans as they come; or places, 0.1 m of path apart, whose scans are
+        compensated for turns.
+    doorways : str
+        The learned cue that tells doorways; empty to perceive no structure. Needs `along` metres.
     interval : int
         Scans that are correlated with each other (the report's beta).
     gradient : float
@@ -59,6 +65,8 @@ class PerceptionProfile(BaseModel):
     source: str = ""
     range_cap_m: Annotated[float, Field(gt=0.0, le=10_000.0)] = 8.0
     repair_window: Annotated[int, Field(ge=0, le=1001)] = 5
+    along: Along = "scans"
+    doorways: str = ""
     interval: Annotated[int, Field(ge=2, le=10_000)] = 20
     gradient: Fraction = 0.9
     threshold: Fraction = REPORT_THRESHOLD
@@ -75,3 +83,9 @@ class PerceptionProfile(BaseModel):
         if beams != 0 and not is_window(beams):
             raise ValueError("expected 0 (off) or an odd number of beams, 3 or more")
         return beams
+
+    @model_validator(mode="after")
+    def _doorways_lie_along_the_way(self) -> Self:
+        if self.doorways and self.along != "metres":
+            raise ValueError("doorways: the cue looks at places along the way; set along: metres")
+        return self

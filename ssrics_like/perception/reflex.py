@@ -1,41 +1,41 @@
 """The perception buffer: scans in, orienting reflexes out.
 
-The novelty algorithm runs below the level of productions. Only when an interval
-is marked does the buffer fire a reflex, the chunk that the productions attend to.
+Novelty and structure are perceived below the level of productions. Only when
+something stands out does the buffer fire a reflex, the chunk that the productions
+attend to.
 """
 
 from __future__ import annotations
 
 import math
-from collections import deque
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ssrics_like.errors import ScanError
 from ssrics_like.perception.conditioning import condition
-from ssrics_like.perception.marking import make_marker
-from ssrics_like.perception.novelty import NoveltyDetector, is_novel, scan_correlations
+from ssrics_like.perception.novelty_watch import IntervalExample, Moment, NoveltyWatch
 from ssrics_like.perception.sectors import SectorClassifier
+from ssrics_like.perception.sensed import Sensed
 from ssrics_like.perception.view import describe_view
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
+    from ssrics_like.perception.doorways import DoorwayCue
     from ssrics_like.perception.observation import LaserScan, Observation, Pose
     from ssrics_like.perception.profile import PerceptionProfile
     from ssrics_like.perception.sectors import Sector
+    from ssrics_like.perception.sights import Sights
 
-REPORT_NOVEL_TAU = 0.34  # report, section 2.2, the interval of figure 1
-REPORT_BORED_TAU = 0.96  # report, section 2.2, the interval of figure 2
+__all__ = ["IntervalExample", "PerceptionBuffer", "Reflex"]
 
 _SAME_ANGLE_RAD = 1e-6  # geometry that is written anew in each record may be rounded differently
 
 
 @dataclass(frozen=True, eq=False)
 class Reflex:
-    """An orienting reflex: something in the surroundings has changed.
+    """An orienting reflex: something in the surroundings stands out.
 
     Attributes
     ----------
@@ -57,7 +57,8 @@ class Reflex:
     sector : {"left", "front", "right"}
         Where the anchor's scan reaches farthest.
     structure : str
-        What was seen there; "unknown" until structure is perceived.
+        What the place looks like: doorway, corridor or room; "unknown" where the
+        profile names no cue.
     view : ndarray, shape (view_beams,), float32
         The anchor's view descriptor; see `describe_view`.
     """
@@ -76,57 +77,19 @@ class Reflex:
     view: NDArray[np.float32]
 
 
-@dataclass(frozen=True, eq=False)
-class IntervalExample:
-    """An interval shown in the report's figures 1 and 2.
-
-    Attributes
-    ----------
-    interval : int
-        0-based number of the interval.
-    scan : int
-        Index of the observation that completed it.
-    tau : float
-        Its boredom quotient.
-    correlations : ndarray, shape ((interval^2 - interval) / 2,)
-        Its pair correlations, for `correlation_histogram`.
-    """
-
-    interval: int
-    scan: int
-    tau: float
-    correlations: NDArray[np.float64]
-
-
-class _Sensed(NamedTuple):
-    observation: Observation
-    ranges_m: NDArray[np.float64]
-    travelled_m: float
-
-
-class _Moment(NamedTuple):
-    anchor: _Sensed
-    novelty: float
-
-
-class _Example(NamedTuple):
-    interval: int
-    scan: int
-    tau: float
-    ranges_m: tuple[NDArray[np.float64], ...]
-
-
 class PerceptionBuffer:
     """Turns observations into reflexes, one at a time.
 
     A log whose laser changes (another number of beams, another first bearing or
-    step) cannot be correlated across the change: the buffer reports what it
-    still holds, starts its interval anew, and counts that in `restarts`.
+    step) cannot be correlated scan by scan across the change: the buffer reports
+    what it still holds, starts its interval anew, and counts that in `restarts`.
 
     Parameters
     ----------
     profile : PerceptionProfile
         The settings.
+    doorways : DoorwayCue, optional
+        What was learned of doorways. A profile that names a cue needs it.
 
     Attributes
     ----------
@@ -139,38 +102,58 @@ class PerceptionBuffer:
         Novel intervals that follow one that is not, or the beginning.
     restarts : int
         Times that the interval began anew because the laser changed.
+
+    Raises
+    ------
+    ValueError
+        The profile names a cue and none is given, or the other way round.
     """
 
-    def __init__(self, profile: PerceptionProfile) -> None:
+    def __init__(self, profile: PerceptionProfile, doorways: DoorwayCue | None = None) -> None:
+        if bool(profile.doorways) != (doorways is not None):
+            raise ValueError(
+                f"the profile's doorways are '{profile.doorways}'; expected "
+                f"{'that cue' if profile.doorways else 'no cue'} (see read_cue)"
+            )
         self.profile = profile
-        self.tau: float | None = None
-        self.intervals = 0
-        self.novel_intervals = 0
-        self.onsets = 0
         self.restarts = 0
         self._events = 0
-        self._detector = NoveltyDetector(profile.interval, profile.gradient, profile.advance)
-        self._marker = make_marker(
-            profile.mark,
-            profile.threshold,
-            profile.prominence,
-            # As many intervals as pass before one shares no scan with the candidate.
-            patience=profile.interval if profile.advance == "sliding" else 1,
-        )
-        self._held: deque[_Sensed] = deque(maxlen=profile.interval)
-        self._anchor = {"oldest": 0, "middle": profile.interval // 2, "newest": -1}[profile.anchor]
+        self._watch = NoveltyWatch(profile)
+        self._sights: Sights | None = None
+        if profile.along == "metres":
+            # Compiled code is loaded only where it is needed.
+            from ssrics_like.perception.sights import Sights  # noqa: PLC0415
+
+            self._sights = Sights(self._watch, doorways)
         self._laser: LaserScan | None = None
         self._sectors: SectorClassifier | None = None
-        self._novel = False
-        self._pending: _Moment | None = None
         self._newest: Observation | None = None
         self._travelled_m = 0.0
-        self._examples: dict[bool, _Example] = {}
+
+    @property
+    def tau(self) -> float | None:
+        """Boredom quotient of the latest complete interval; None before the first."""
+        return self._watch.tau
 
     @property
     def novelty(self) -> float | None:
         """1 - tau of the latest complete interval; None before the first."""
         return None if self.tau is None else 1.0 - self.tau
+
+    @property
+    def intervals(self) -> int:
+        """Complete intervals so far."""
+        return self._watch.intervals
+
+    @property
+    def novel_intervals(self) -> int:
+        """Complete intervals so far that were novel."""
+        return self._watch.novel_intervals
+
+    @property
+    def onsets(self) -> int:
+        """Novel intervals that follow one that is not, or the beginning."""
+        return self._watch.onsets
 
     def update(self, observation: Observation) -> list[Reflex]:
         """Take one observation; return the reflexes that it fires, mostly none.
@@ -189,28 +172,28 @@ class PerceptionBuffer:
             here, before = observation.pose, self._newest.pose
             self._travelled_m += math.hypot(here.x_m - before.x_m, here.y_m - before.y_m)
         self._newest = observation
-        self._held.append(_Sensed(observation, ranges_m, self._travelled_m))
-        tau = self._detector.update(ranges_m)
-        if tau is not None:
-            self._take_interval(tau, fired)
-        return fired
+        sensed = Sensed(observation, ranges_m, self._travelled_m)
+        found = (
+            self._watch.update(sensed, ranges_m)
+            if self._sights is None
+            else self._sights.update(sensed)
+        )
+        return fired + [self._fire(moment) for moment in found]
 
     def flush(self) -> list[Reflex]:
-        """End the novel stretch, as at the end of a log; return a reflex kept back so far."""
-        self._novel = False
-        marked = self._marker.flush()
-        pending, self._pending = self._pending, None
-        return [self._fire(pending)] if marked is not None and pending is not None else []
+        """End the novel stretch, as at the end of a log; return reflexes kept back so far."""
+        found = self._watch.flush() if self._sights is None else self._sights.flush()
+        return [self._fire(moment) for moment in found]
 
     @property
     def example_novel(self) -> IntervalExample | None:
         """The novel interval so far whose tau is nearest to that of the report's figure 1."""
-        return self._example(novel=True)
+        return self._watch.example(novel=True)
 
     @property
     def example_bored(self) -> IntervalExample | None:
         """The bored interval so far whose tau is nearest to that of the report's figure 2."""
-        return self._example(novel=False)
+        return self._watch.example(novel=False)
 
     def _meet_laser(self, observation: Observation) -> list[Reflex]:
         """Start the interval anew, and return what is still held, if the laser is another."""
@@ -224,32 +207,13 @@ class PerceptionBuffer:
         if self._laser is not None:
             fired = self.flush()
             self.restarts += 1
-            self._detector.reset()
-            self._held.clear()
+            self._watch.restart()
         self._laser = scan
         self._sectors = sectors
         return fired
 
-    def _take_interval(self, tau: float, fired: list[Reflex]) -> None:
-        index = self._marker.intervals
-        novel = is_novel(tau, self.profile.threshold)
-        self.tau = tau
-        self.intervals += 1
-        self.novel_intervals += novel
-        self.onsets += novel and not self._novel
-        self._novel = novel
-        self._keep_example(index, tau, novel=novel)
-        moment = _Moment(self._held[self._anchor], 1.0 - tau)
-        marked = self._marker.update(tau)
-        if marked == index:
-            fired.append(self._fire(moment))
-        elif marked is not None and self._pending is not None:
-            fired.append(self._fire(self._pending))
-        if self._marker.candidate == index:
-            self._pending = moment
-
-    def _fire(self, moment: _Moment) -> Reflex:
-        observation, ranges_m, travelled_m = moment.anchor
+    def _fire(self, moment: Moment) -> Reflex:
+        observation, ranges_m, travelled_m, structure = moment.anchor
         assert self._sectors is not None  # both are set by the first observation
         assert self._newest is not None
         reflex = Reflex(
@@ -263,26 +227,11 @@ class PerceptionBuffer:
             modality="laser",
             novelty=moment.novelty,
             sector=self._sectors.classify(ranges_m),
-            structure="unknown",
+            structure=structure,
             view=describe_view(ranges_m, self.profile.view_beams),
         )
         self._events += 1
         return reflex
-
-    def _keep_example(self, index: int, tau: float, *, novel: bool) -> None:
-        wanted = REPORT_NOVEL_TAU if novel else REPORT_BORED_TAU
-        kept = self._examples.get(novel)
-        if kept is None or abs(tau - wanted) < abs(kept.tau - wanted):
-            # Only references are kept; the correlations are computed when asked for.
-            scans = tuple(sensed.ranges_m for sensed in self._held)
-            self._examples[novel] = _Example(index, self._held[-1].observation.index, tau, scans)
-
-    def _example(self, *, novel: bool) -> IntervalExample | None:
-        kept = self._examples.get(novel)
-        if kept is None:
-            return None
-        correlations = scan_correlations(np.array(kept.ranges_m))
-        return IntervalExample(kept.interval, kept.scan, kept.tau, correlations)
 
 
 def _same_geometry(one: LaserScan, other: LaserScan) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ssrics_like import library, settings
+from ssrics_like.cues import read_cue
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.productions.rulebook import load_rulebook
@@ -17,11 +18,16 @@ def load_perception(name: str | Path) -> PerceptionProfile:
 
     Raises
     ------
-    LibraryError, SettingsError
-        There is none of this name; it is wrong.
+    LibraryError, SettingsError, CueError
+        There is none of this name; it is wrong, or the cue that it names.
     """
-    document = settings.read_document(library.find("perception", name))
-    return settings.validated(PerceptionProfile, document)
+    path = library.find("perception", name)
+    profile = settings.validated(PerceptionProfile, settings.read_document(path))
+    if profile.doorways.endswith(".json"):  # a path in a file starts at that file
+        profile = profile.model_copy(update={"doorways": str(path.parent / profile.doorways)})
+    if profile.doorways:
+        read_cue(library.find_cue(profile.doorways))
+    return profile
 
 
 def load_memory(name: str | Path) -> MemoryProfile:

@@ -13,6 +13,7 @@ import numpy as np
 
 from ssrics_like.model import CognitiveModel
 from ssrics_like.perception.observation import Observation
+from ssrics_like.perception.walk import STEP_M
 from ssrics_like.results.counts import counted
 from ssrics_like.results.recorder import JUMP_M, JUMP_M_S, Recorder
 from ssrics_like.scenarios.feeds import Feed, make_feed
@@ -129,10 +130,15 @@ def _warnings(resolved: Resolved, entry: dict[str, Any]) -> list[str]:
     """Say what in a run's counts the user should know."""
     found = []
     if not entry["novelty"]["intervals"]:
-        found.append(
-            f"the {'log' if resolved.log else 'drive'} has {counted(entry['scans'], 'scan')}, "
-            f"fewer than one interval of {resolved.perception.interval}: nothing can be novel"
+        what = "log" if resolved.log else "drive"
+        length = (
+            f"has {counted(entry['scans'], 'scan')}, fewer than one interval of "
+            f"{resolved.perception.interval}"
+            if resolved.perception.along == "scans"
+            else f"is {entry['path_length_m']:.3g} m long, hardly longer than one interval of "
+            f"{resolved.perception.interval * STEP_M:.3g} m"
         )
+        found.append(f"the {what} {length}: nothing can be novel")
     if entry["jumps"] and resolved.log:
         found.append(
             f"the robot's pose jumped {counted(entry['jumps'], 'time')} by more than "

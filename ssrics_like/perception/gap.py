@@ -1,0 +1,69 @@
+"""The gap at a place: which measures describe it, by name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssrics_like.perception import gap_kernels as kernels
+from ssrics_like.perception.local_map import MEMORY_M
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ssrics_like.perception.local_map import LocalMap
+
+
+def _names() -> tuple[str, ...]:
+    names = ["width_m", "off_middle_m", "oblique_rad"]
+    for step in range(0, kernels.STEPS, 2):
+        ahead_m = (step - kernels.HERE) * kernels.STEP_M
+        names += [f"near_wall_m@{ahead_m:+.1f}", f"far_wall_m@{ahead_m:+.1f}"]
+    for first, last in kernels.STRETCHES:
+        part = "..".join(
+            f"{(step - kernels.HERE) * kernels.STEP_M:+.1f}" for step in (first, last - 1)
+        )
+        names += [
+            f"{what}@{part}"
+            for what in ("narrowest_m", "widest_m", "mean_width_m", "mean_unknown_m")
+        ]
+    names += ["neck_steps_ahead", "neck_steps_behind"]
+    for wall in (
+        "wall_0.0_0.5", "wall_0.5_1.0", "wall_1.0_1.5", "unbroken_wall_m", "unknown_wall_m",
+        "wall_roughness_m", "wall_offset_m", "wall_in_all",
+    ):  # fmt: skip
+        names += [f"{wall}_lesser", f"{wall}_greater"]
+    for first_m, last_m in kernels.BANDS_M:
+        for lane in ("lane", "aside"):
+            names += [f"{what}_{lane}@{first_m:+.1f}..{last_m:+.1f}" for what in ("full", "free")]
+    return tuple(names)
+
+
+FEATURES = _names()
+"""Names of the measures. `lesser` and `greater` are the two sides in order of size, so that a
+doorway and its mirror image are the same; ``@+0.4`` is 0.4 m ahead of the gap."""
+
+
+def gap_features(
+    local: LocalMap, place: tuple[float, float, float], travelled_m: float
+) -> NDArray[np.float64]:
+    """Describe the gap at a place.
+
+    Parameters
+    ----------
+    local : LocalMap
+        The surroundings.
+    place : tuple of float
+        x, y and direction of travel: metres, radians, frame of odometry.
+    travelled_m : float
+        Metres travelled so far.
+
+    Returns
+    -------
+    ndarray, shape (features,), float64
+        In the order of `FEATURES`.
+    """
+    measures = np.empty(len(FEATURES))
+    kernels.gap_features(local.evidence, local.seen_m, place, travelled_m - MEMORY_M, measures)
+    return measures

@@ -1,0 +1,93 @@
+"""What the robot's surroundings look like, place by place along its way."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+from ssrics_like.perception.gap import gap_features
+from ssrics_like.perception.local_map import LocalMap
+from ssrics_like.perception.walk import STEP_M, Walk
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ssrics_like.perception.observation import Pose
+    from ssrics_like.perception.walk import Place
+
+T = TypeVar("T")
+
+LAG_M = 0.4
+"""A place is described when the robot is so far past it: what lies behind it has then been seen."""
+MOVED_M, TURNED_RAD = 0.02, 0.026
+"""A scan taken nearer to the one before, and less turned, shows nothing new."""
+
+
+@dataclass(frozen=True, eq=False)
+class Described(Generic[T]):
+    """A place and what it looks like.
+
+    Attributes
+    ----------
+    place : Place
+        The place.
+    measures : ndarray, shape (features,), float64
+        In the order of `ssrics_like.perception.gap.FEATURES`.
+    """
+
+    place: Place[T]
+    measures: NDArray[np.float64]
+
+
+class Surroundings(Generic[T]):
+    """Keeps the local map and describes a place every 0.1 m of path.
+
+    Neither speed nor scan rate matters, only the way; a robot that stands describes nothing.
+    """
+
+    def __init__(self) -> None:
+        self._map = LocalMap()
+        self._walk: Walk[T] = Walk(STEP_M, LAG_M)
+        self._mapped: tuple[float, float] | None = None
+
+    @property
+    def travelled_m(self) -> float:
+        """Length of the path so far, metres."""
+        return self._walk.travelled_m
+
+    def update(
+        self,
+        pose: Pose,
+        bearings_rad: NDArray[np.float64],
+        ranges_m: NDArray[np.float64],
+        sensed: T,
+    ) -> list[Described[T]]:
+        """Take a scan and describe the places that the robot is now far enough past.
+
+        Parameters
+        ----------
+        pose : Pose
+            Of the laser, frame of odometry.
+        bearings_rad, ranges_m : ndarray, shape (beams,), float64
+            The conditioned scan.
+        sensed : object
+            Whatever is to be handed out with the places that lie nearest to this pose.
+        """
+        self._walk.advance(pose, sensed)
+        here_m = self._walk.travelled_m
+        if (
+            self._mapped is None
+            or here_m - self._mapped[0] > MOVED_M
+            or abs(math.remainder(pose.theta_rad - self._mapped[1], math.tau)) > TURNED_RAD
+        ):
+            self._map.take(pose, bearings_rad, ranges_m, here_m)
+            self._mapped = (here_m, pose.theta_rad)
+        return [
+            Described(
+                place,
+                gap_features(self._map, (place.x_m, place.y_m, place.heading_rad), here_m),
+            )
+            for place in self._walk.places()
+        ]

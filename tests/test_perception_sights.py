@@ -1,0 +1,118 @@
+"""Reflexes along the way: a doorway is seen once each time, wherever, however fast, however turned."""
+
+import math
+
+import numpy as np
+import pytest
+from buildings import DOOR, Along, exact_laser, exact_robot, line, simulated, two_rooms
+
+from ssrics_like.perception import LaserScan, Observation, PerceptionBuffer, PerceptionProfile, Pose
+from ssrics_like.perception.doorways import DoorwayCue
+from ssrics_like.perception.gap import FEATURES
+from ssrics_like.perception.panorama import BEAMS, panorama
+from ssrics_like.perception.trees import BoostedTrees
+
+# Whatever is narrower than 1.2 m and has walls on both sides is a doorway.
+NARROW = DoorwayCue(
+    BoostedTrees(
+        -2.0, np.array([0], np.int32),
+        np.array([FEATURES.index("width_m"), FEATURES.index("wall_in_all_lesser"), -1, -1, -1], np.int32),
+        np.array([1.2, 0.35, 0.0, 0.0, 0.0]), np.array([1, 2, 0, 0, 0], np.int32),
+        np.array([4, 3, 0, 0, 0], np.int32), np.array([0.0, 0.0, 0.0, 6.0, 0.0]),
+    ),
+    0.5,
+)  # fmt: skip
+ALONG = PerceptionProfile(along="metres", doorways="narrow", interval=12)
+THERE = line((1.0, 1.5), (5.0, 1.5))
+
+
+def drive(places=THERE, laser=None, grid=None, **changes):
+    robot = exact_robot(laser or exact_laser(), **changes)
+    return list(simulated(grid or two_rooms(), robot, (*places[0], 0.0), [Along(places)]))
+
+
+def reflexes(observations, profile=ALONG, cue=NARROW):
+    buffer = PerceptionBuffer(profile, cue)
+    fired = []
+    for observation in observations:
+        fired += [(reflex, observation) for reflex in buffer.update(observation)]
+    return fired + [(reflex, observations[-1]) for reflex in buffer.flush()], buffer
+
+
+def doorways(observations):
+    return [(r, now) for r, now in reflexes(observations)[0] if r.structure == "doorway"]
+
+
+@pytest.mark.parametrize(
+    ("rate_hz", "speed_m_s"), [(5.0, 0.9), (10.0, 0.9), (40.0, 0.9), (10.0, 0.45), (10.0, 1.8)]
+)
+def test_a_doorway_is_seen_once_where_it_is_and_soon_whatever_speed_and_rate(rate_hz, speed_m_s):
+    seen = doorways(drive(laser=exact_laser(rate_hz=rate_hz), speed_m_s=speed_m_s))
+    assert len(seen) == 1
+    reflex, now = seen[0]
+    assert math.hypot(reflex.pose.x_m - DOOR[0], reflex.pose.y_m - DOOR[1]) <= 0.3
+    spacing_m = speed_m_s / rate_hz
+    driven_m = math.hypot(now.pose.x_m - reflex.pose.x_m, now.pose.y_m - reflex.pose.y_m)
+    assert 0.6 <= driven_m <= 0.7 + spacing_m + 0.05
+    assert reflex.perceived_s == now.t_s
+    assert 0.0 <= reflex.novelty <= 1.0
+
+
+def test_each_passage_is_seen():
+    there_and_back = np.concatenate([THERE, line((5.0, 1.5), (1.0, 1.5))])
+    seen = doorways(drive(there_and_back))
+    assert [round(r.pose.x_m) for r, _ in seen] == [3, 3]
+    assert seen[0][0].travelled_m < 3.0
+    assert seen[1][0].travelled_m > 5.0
+
+
+def test_without_a_doorway_there_is_none_and_rooms_and_corridors_have_their_names():
+    wide = drive(grid=two_rooms(2.9))
+    assert doorways(wide) == []
+    fired, _ = reflexes(wide, ALONG.model_copy(update={"mark": "every", "gradient": 0.999}))
+    middle = [r.structure for r, _ in fired if 2.2 < r.pose.x_m < 3.8]
+    assert len(middle) >= 5
+    assert set(middle) == {"corridor"}  # 2.8 m from wall to wall
+
+
+def test_without_a_cue_structure_is_unknown():
+    fired, buffer = reflexes(
+        drive(), ALONG.model_copy(update={"doorways": "", "mark": "every"}), None
+    )
+    assert {r.structure for r, _ in fired} == {"unknown"}
+    assert buffer.intervals > 10
+
+
+def test_a_profile_and_its_cue_come_together():
+    with pytest.raises(ValueError, match="expected that cue"):
+        PerceptionBuffer(ALONG)
+    with pytest.raises(ValueError, match="expected no cue"):
+        PerceptionBuffer(PerceptionProfile(), NARROW)
+
+
+def test_a_robot_that_stands_or_turns_on_the_spot_perceives_nothing():
+    scan = LaserScan(np.full(180, 3.0), -math.pi / 2, math.pi / 180)
+    buffer = PerceptionBuffer(ALONG, NARROW)
+    for i in range(500):
+        assert buffer.update(Observation(i, 0.1 * i, Pose(1.0, 1.0, 0.05 * i), scan)) == []
+    assert buffer.flush() == []
+    assert buffer.intervals == 0
+
+
+def test_a_change_of_the_laser_in_the_middle_loses_no_doorway():
+    first = drive()
+    other = drive(laser=exact_laser(90, 180.0))
+    mixed = [o if o.pose.x_m < 2.5 else p for o, p in zip(first, other, strict=True)]
+    assert len(doorways(mixed)) == 1
+
+
+def test_turning_a_scan_turns_its_panorama_back():
+    rng = np.random.default_rng(0)
+    world = rng.uniform(1.0, 5.0, BEAMS)
+    bearings = np.radians(np.arange(-90.0, 90.0))
+    for turn in (0, 17, 90, 200, -33):
+        seen = world[(np.arange(-90, 90) + turn) % BEAMS]
+        around = panorama(seen, bearings, math.radians(turn))
+        known = ~np.isnan(around)
+        assert known.sum() == 180
+        assert (around[known] == world[known]).all()
