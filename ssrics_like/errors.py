@@ -56,6 +56,10 @@ class MemoryFileError(SsricsError, ValueError):
     """A saved memory is damaged, of another kind, or newer than this version reads."""
 
 
+class MissingPackageError(SsricsError, ImportError):
+    """A package that only some commands need is not installed."""
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return ``; did you mean 'x'?`` for the known name nearest to `word`, else nothing."""
     matches = difflib.get_close_matches(str(word), sorted(known), n=1, cutoff=0.6)

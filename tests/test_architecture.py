@@ -20,7 +20,7 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
     "model": {"errors", "cues", "library", "decision", "modules", *MIND},
     "results": {"errors", "atomic", "decision", "model", *MIND},
     "comparison": {"errors", "results", "world", "maps"},
-    "training": {"errors", "perception", "world", "comparison", "designators", "scenarios"},
+    "training": {"errors", "perception", "world", "comparison", "scenarios"},
     "scenarios": {
         "errors",
         "library",

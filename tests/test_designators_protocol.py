@@ -15,7 +15,6 @@ import ssrics_like.designators as package
 from ssrics_like.designators import (
     DesignatorSettings,
     Mark,
-    MissingPackageError,
     add_designator,
     designate,
     designator_kind,
@@ -24,7 +23,13 @@ from ssrics_like.designators import (
     registry,
     train,
 )
-from ssrics_like.errors import LibraryError, ScanError, SettingsError, SsricsError
+from ssrics_like.errors import (
+    LibraryError,
+    MissingPackageError,
+    ScanError,
+    SettingsError,
+    SsricsError,
+)
 from ssrics_like.perception.observation import LaserScan
 
 NAMES = (

@@ -116,3 +116,18 @@ def test_turning_a_scan_turns_its_panorama_back():
         known = ~np.isnan(around)
         assert known.sum() == 180
         assert (around[known] == world[known]).all()
+
+
+@pytest.mark.parametrize("rate_hz", [2.5, 10.0])
+def test_no_peak_of_novelty_takes_a_doorways_place(rate_hz):
+    there_and_back = np.concatenate([THERE, line((5.0, 1.5), (1.0, 1.5))])
+    observations = drive(there_and_back, exact_laser(rate_hz=rate_hz))
+    fired, _ = reflexes(observations, ALONG.model_copy(update={"mark": "every"}))
+    at = [r.travelled_m for r, _ in fired if r.structure == "doorway"]
+    assert len(at) == 2
+    moments = [now.index for _, now in fired]
+    for reflex, now in fired[:-1]:
+        if reflex.structure == "doorway":
+            assert moments.count(now.index) == 1
+            later = [r.travelled_m for r, then in fired if then.index > now.index]
+            assert all(abs(m - reflex.travelled_m) >= 0.8 for m in later)

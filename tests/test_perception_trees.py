@@ -61,6 +61,13 @@ def test_what_equals_a_threshold_goes_left():
     assert trees.probability([1.6]) == pytest.approx(1 / (1 + math.exp(1.0)))
 
 
+@pytest.mark.parametrize(("odds", "probability"), [(-1e4, 0.0), (1e4, 1.0), (0.0, 0.5)])
+def test_extreme_odds_overflow_nothing(odds, probability):
+    none = np.zeros(0, np.int32)
+    trees = BoostedTrees(odds, none, none, np.zeros(0), none, none, np.zeros(0))
+    assert trees.probability([1.0]) == probability
+
+
 def peaks_of(scores, threshold=0.5, apart_m=0.8, ahead_m=0.2):
     peaks = Peaks(threshold, apart_m, ahead_m)
     found = []

@@ -86,3 +86,25 @@ def test_places_lie_on_the_path_in_order(steps):
         # What lies between observations that are kept is cut short by less than 2 cm.
         assert place.x_m == pytest.approx(np.interp(place.at_m, along, xy[:, 0]), abs=2 * KEPT_M)
         assert place.y_m == pytest.approx(np.interp(place.at_m, along, xy[:, 1]), abs=2 * KEPT_M)
+
+
+@pytest.mark.parametrize("elsewhere", [(1e4, 0.0), (-6.0, 3.0), (math.nan, 0.0)])
+def test_a_robot_that_is_carried_begins_anew(elsewhere):
+    walk = Walk(0.1, 0.4)
+    for pose in straight(0.05):
+        assert walk.advance(pose, None)
+        list(walk.places())
+    before_m = walk.travelled_m
+    x, y = elsewhere
+    assert not walk.advance(Pose(x, y, 0.0), None)
+    assert list(walk.places()) == []
+    assert walk.travelled_m == before_m
+    if math.isnan(x):
+        assert not walk.advance(Pose(50.0, 0.0, 0.0), None)
+        x, y = 50.0, 0.0
+    found = []
+    for i in range(1, 41):
+        walk.advance(Pose(x + 0.05 * i, y, 0.0), None)
+        found += walk.places()
+    assert len(found) == pytest.approx((2.0 - 0.4 - 0.2) / 0.1, abs=2)
+    assert all(place.at_m >= before_m + 0.2 - 1e-9 for place in found)

@@ -5,9 +5,8 @@ import sys
 import numpy as np
 import pytest
 
-from ssrics_like.designators import MissingPackageError
 from ssrics_like.designators.optional import one_thread
-from ssrics_like.errors import SettingsError
+from ssrics_like.errors import MissingPackageError, SettingsError
 from ssrics_like.training import TrainingSettings, train_doorways
 from ssrics_like.training.conversion import converted
 from ssrics_like.training.fitting import grown

@@ -5,7 +5,6 @@ Each is found by a name and made for one drive; what marks are worth is said els
 """
 
 from ssrics_like.designators.boosted_scan import ScanModel, train
-from ssrics_like.designators.optional import MissingPackageError
 from ssrics_like.designators.peaks import Peaks, ScoredDesignator
 from ssrics_like.designators.protocol import (
     Designator,
@@ -28,7 +27,6 @@ __all__ = [
     "DesignatorKind",
     "DesignatorSettings",
     "Mark",
-    "MissingPackageError",
     "Peaks",
     "ScanModel",
     "ScoredDesignator",

@@ -7,11 +7,7 @@ from contextlib import AbstractContextManager
 from functools import cache
 from typing import Any, cast
 
-from ssrics_like.errors import SsricsError
-
-
-class MissingPackageError(SsricsError, ImportError):
-    """A library that a designator needs is not installed."""
+from ssrics_like.errors import MissingPackageError
 
 
 def optional(module: str, package: str, designator: str) -> Any:

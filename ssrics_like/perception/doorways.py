@@ -80,4 +80,3 @@ class DoorwayWatch(Generic[T]):
     def flush(self) -> list[SeenDoorway[T]]:
         """Return a doorway that was still waited for, as at the end of a log."""
         return [SeenDoorway(seen, p) for p, seen in self._peaks.flush()]
-

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,6 +25,10 @@ class Pose:
     x_m: float
     y_m: float
     theta_rad: float
+
+    def distance_m(self, other: Pose) -> float:
+        """Return how far another pose lies from this one; not finite where one of them is not."""
+        return math.hypot(float(other.x_m) - float(self.x_m), float(other.y_m) - float(self.y_m))
 
 
 @dataclass(frozen=True)

@@ -169,8 +169,8 @@ class PerceptionBuffer:
             observation.scan.ranges_m, profile.range_cap_m, profile.repair_window
         ).ranges_m
         if self._newest is not None:
-            here, before = observation.pose, self._newest.pose
-            self._travelled_m += math.hypot(here.x_m - before.x_m, here.y_m - before.y_m)
+            step_m = self._newest.pose.distance_m(observation.pose)
+            self._travelled_m += step_m if math.isfinite(step_m) else 0.0
         self._newest = observation
         sensed = Sensed(observation, ranges_m, self._travelled_m)
         found = (

@@ -75,7 +75,8 @@ class Surroundings(Generic[T]):
         sensed : object
             Whatever is to be handed out with the places that lie nearest to this pose.
         """
-        self._walk.advance(pose, sensed)
+        if not self._walk.advance(pose, sensed):
+            self._map = LocalMap()
         here_m = self._walk.travelled_m
         if (
             self._mapped is None

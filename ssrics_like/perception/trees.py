@@ -58,4 +58,7 @@ class BoostedTrees:
             self.roots, self.feature, self.threshold, self.left, self.right, self.value,
             np.asarray(measures, np.float64),
         )  # fmt: skip
-        return 1.0 / (1.0 + math.exp(-(self.baseline + score)))
+        odds = self.baseline + score
+        if odds < 0.0:  # so that nothing overflows
+            return math.exp(odds) / (1.0 + math.exp(odds))
+        return 1.0 / (1.0 + math.exp(-odds))

@@ -18,6 +18,8 @@ STEP_M = 0.1
 """Metres of path between the places that are looked at."""
 CHORD_M = 0.2
 """The direction of travel at a place is that of the chord from so far before it to so far after."""
+JUMP_M = 5.0
+"""A robot that is so far from where it was last was carried, or its odometry was set anew."""
 KEPT_M = 0.02
 """Observations nearer to the one before are not kept: a robot that stands needs no memory."""
 
@@ -45,8 +47,7 @@ class Place(Generic[T]):
 
 class _Kept(NamedTuple, Generic[T]):
     at_m: float
-    x_m: float
-    y_m: float
+    pose: Pose
     sensed: T
 
 
@@ -74,15 +75,29 @@ class Walk(Generic[T]):
         self._kept: deque[_Kept[T]] = deque()
         self._newest: _Kept[T] | None = None
 
-    def advance(self, pose: Pose, sensed: T) -> None:
-        """Go on to a pose, frame of odometry, where something was sensed."""
+    def advance(self, pose: Pose, sensed: T) -> bool:
+        """Go on to a pose, frame of odometry, where something was sensed.
+
+        Returns
+        -------
+        bool
+            False if the robot cannot have driven there; then its way begins anew.
+        """
         before = self._newest
+        driven = True
         if before is not None:
-            self.travelled_m += math.hypot(pose.x_m - before.x_m, pose.y_m - before.y_m)
-        here = _Kept(self.travelled_m, pose.x_m, pose.y_m, sensed)
+            step_m = before.pose.distance_m(pose)
+            driven = step_m < JUMP_M  # so that one that is not a number is no step either
+            if driven:
+                self.travelled_m += step_m
+            else:
+                self._kept.clear()
+                self._next = math.ceil((self.travelled_m + CHORD_M) / self._step_m)
+        here = _Kept(self.travelled_m, pose, sensed)
         if not self._kept or here.at_m - self._kept[-1].at_m >= KEPT_M:
             self._kept.append(here)
         self._newest = here
+        return driven
 
     def places(self) -> Iterator[Place[T]]:
         """Hand out the places that the robot is now far enough past."""
@@ -105,9 +120,10 @@ class Walk(Generic[T]):
             if after.at_m >= at_m:
                 between = after.at_m - before.at_m
                 part = (at_m - before.at_m) / between if between > 0.0 else 1.0
+                one, other = before.pose, after.pose
                 return (
-                    before.x_m + part * (after.x_m - before.x_m),
-                    before.y_m + part * (after.y_m - before.y_m),
+                    one.x_m + part * (other.x_m - one.x_m),
+                    one.y_m + part * (other.y_m - one.y_m),
                 )
             before = after
-        return self._newest.x_m, self._newest.y_m
+        return self._newest.pose.x_m, self._newest.pose.y_m

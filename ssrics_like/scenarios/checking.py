@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from ssrics_like import settings
+from ssrics_like.cues import read_cue
 from ssrics_like.errors import SettingsError, choices, nearest
 from ssrics_like.library import SUFFIXES
 from ssrics_like.maps import load_building, load_plan
@@ -41,7 +42,7 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
 
     Raises
     ------
-    SettingsError, RuleError, LibraryError, MapError, SourceError, ResultsError
+    SettingsError, RuleError, LibraryError, CueError, MapError, SourceError, ResultsError
         What is wrong with it.
     """
     if has_variants(path):
@@ -50,6 +51,8 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
         manifest = check_results(path)
         far = unfinished(manifest) or counted(len(manifest["runs"]), "run")
         return f"results, {far}; frame {manifest['frame']}"
+    if path.suffix == ".json":
+        return f"doorway cue, threshold {read_cue(path).threshold:g}"
     if path.suffix in SUFFIXES:
         kind = _kind(path)
         return f"{kind}, {YAML_KINDS[kind](path)}"
@@ -196,5 +199,5 @@ YAML_KINDS: dict[str, Callable[[Path], str]] = {
     "map": _map,
     "plan": _plan,
 }
-KINDS = (*YAML_KINDS, "log", "results folder")
+KINDS = (*YAML_KINDS, "doorway cue", "log", "results folder")
 PROGRESS_EVERY = 256  # scans

@@ -11,8 +11,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from ssrics_like.designators.optional import MissingPackageError
-from ssrics_like.errors import SettingsError
+from ssrics_like.errors import MissingPackageError, SettingsError
 from ssrics_like.training.conversion import converted
 from ssrics_like.training.labels import DOORWAY, NOT
 
