@@ -565,3 +565,19 @@ def test_numbers_read_well():
     assert [number_text(v, 2) for v in (-0.001, -1.5)] == ["0.00", "−1.50"]
     assert [clock(s).unit for s in (10, 1000, 100_000)] == ["s", "min", "h"]
     assert [round_length(v) for v in (0.7, 1.0, 4.99, 60.0)] == [0.5, 1.0, 2.0, 50.0]
+
+
+@pytest.mark.parametrize(
+    ("perception", "counted"), [("report", "50 scans"), ("human-like", "12 places along the way")]
+)
+def test_the_caption_of_novelty_says_what_intervals_count(tmp_path, perception, counted):
+    from ssrics_like.scenarios.resolving import resolve
+    from ssrics_like.scenarios.runner import run_scenario
+    from ssrics_like.scenarios.schema import make_scenario
+
+    log = library.root() / "scenarios" / "logs" / "demo.log.gz"
+    scenario = make_scenario({"source": {"log": str(log)}, "perception": perception})
+    run_scenario(resolve(scenario, tmp_path), tmp_path / "out")
+    write_report(tmp_path / "out")
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert f"of each interval of {counted}: the line" in page

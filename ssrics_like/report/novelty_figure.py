@@ -63,12 +63,13 @@ def draw_novelty(results: Results) -> Drawing | None:
         below.tick_params(axis="y", length=0)
         below.spines["left"].set_visible(False)
     below.set_xlabel(unit.label())
-    interval = perception["interval"]
+    along_the_way = perception.get("along") == "metres"
+    interval = f"{perception['interval']} {'places along the way' if along_the_way else 'scans'}"
     return Drawing(
         "novelty",
         figure,
         f"Novelty over {run.duration_s:.0f} seconds with the threshold at {threshold:.2f}",
-        f"Novelty (1 minus the boredom quotient τ) of each interval of {interval} scans: the line "
+        f"Novelty (1 minus the boredom quotient τ) of each interval of {interval}: the line "
         "is the mean, the band reaches from the least to the largest where several intervals share "
         "a pixel. An interval is novel where it reaches the dashed line (τ at most "
         f"{fraction_text(1.0 - threshold)}). The line is drawn at an interval's last scan; each "
