@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ssrics_like.perception.local_map import CELLS, MEMORY_M, REACH_M, LocalMap
@@ -90,6 +90,8 @@ def passed(pose, bearing_rad, length_m):
     st.floats(-math.pi, math.pi), st.floats(0.3, REACH_M - 0.01),
 )  # fmt: skip
 def test_every_cell_on_the_way_is_freed_and_no_other(x, y, heading, bearing, length):
+    # Which of two cells a beam takes that runs along their border is a matter of rounding.
+    assume(all(abs(v / CELL_M - round(v / CELL_M)) > 1e-3 for v in (x, y)))
     local = LocalMap()
     pose = Pose(x, y, heading)
     beam(local, length, pose, bearing_rad=bearing)
