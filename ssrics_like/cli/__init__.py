@@ -9,10 +9,10 @@ import os
 import sys
 from collections.abc import Sequence
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, Parameter
 
 import ssrics_like
-from ssrics_like.cli import check, compare, library, maps, replay, report, run, schema, train
+from ssrics_like.cli import bench, check, compare, library, maps, replay, report, run, schema, train
 from ssrics_like.errors import SsricsError
 
 USER_ERROR = 1
@@ -42,6 +42,8 @@ app.command(library.show, help_epilogue="")
 app.command(report.report, help_epilogue="")
 app.command(schema.schema, help_epilogue="")
 app.command(train.train, help_epilogue="")
+several = Parameter(consume_multiple=True, negative="")
+app.command(bench.bench, help_epilogue="", default_parameter=several)
 map_app = App(
     name="map",
     help="Draw floor plans, make buildings up, look at maps.",

@@ -1,0 +1,179 @@
+"""One drive of a course: its observations, and the truth that marks are compared with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssrics_like.bench.conditions import NOMINAL, Condition
+from ssrics_like.bench.plans import load_plan
+from ssrics_like.comparison import Passages, Way, load_truth, passages_through, thresholds
+from ssrics_like.comparison.scores import DESIGNATED
+from ssrics_like.errors import ResultsError
+from ssrics_like.perception.observation import Pose
+from ssrics_like.sources import open_log
+from ssrics_like.training.false_gaps import false_gaps
+from ssrics_like.world.buildings.generator import generate
+from ssrics_like.world.buildings.plan import build
+from ssrics_like.world.disturbances import Crowd, Disturbances
+from ssrics_like.world.exploration import Exploration
+from ssrics_like.world.reachable import roomiest, standing
+from ssrics_like.world.simulation import Simulation
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ssrics_like.perception.observation import Observation
+    from ssrics_like.world.grid import GridMap
+    from ssrics_like.world.locations import Location
+
+TESTING, TUNING, TRAINING = 0, 1, 2
+"""Part of every seed, so that no building serves two purposes."""
+LIMIT_S = 7200.0
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A drive through a generated building.
+
+    Attributes
+    ----------
+    condition : Condition
+        What it is like.
+    seed : int
+        Which building, and all randomness of the drive.
+    purpose : int
+        What it serves.
+    """
+
+    condition: Condition
+    seed: int
+    purpose: int = TESTING
+
+
+@dataclass(frozen=True)
+class OnPlan:
+    """A drive through a floor plan, from a place drawn at random; `seed` says which."""
+
+    folder: Path
+    seed: int
+
+
+@dataclass(frozen=True)
+class OfLog:
+    """A log with its labels."""
+
+    log: Path
+    truth: Path
+    seed: int = 0
+
+
+Spec = Simulated | OnPlan | OfLog
+"""What a drive is made of; equal ones are the same drive."""
+
+
+@dataclass(frozen=True, eq=False)
+class BenchDrive:
+    """A drive, ready for any designator.
+
+    Attributes
+    ----------
+    observations : tuple of Observation
+        In order.
+    frame : str
+        Of their poses.
+    way : Way
+        Where the laser really was, a pose for each observation.
+    locations : tuple of Location
+        Every labelled place, in the frame of the way.
+    designated : ndarray of bool, shape (locations,)
+        Which of them should be found.
+    passages : Passages
+        When the robot went through them.
+    """
+
+    observations: tuple[Observation, ...]
+    frame: str
+    way: Way
+    locations: tuple[Location, ...]
+    designated: NDArray[np.bool_]
+    passages: Passages
+
+
+def make_drive(spec: Spec) -> BenchDrive:
+    """Simulate a drive, or read its log; the spec alone decides about it.
+
+    Raises
+    ------
+    SourceError, MapError, ResultsError
+        A log, a plan or labels cannot be read, or do not belong together.
+    """
+    if isinstance(spec, OfLog):
+        return _of_log(spec)
+    if isinstance(spec, OnPlan):
+        return _on_plan(spec)
+    return _generated(spec)
+
+
+def _of_log(spec: OfLog) -> BenchDrive:
+    source, truth = open_log(spec.log), load_truth(spec.truth)
+    observations = tuple(source)
+    if len(observations) != len(truth.way.xy_m):
+        raise ResultsError(
+            f"{spec.log}: has {len(observations)} scans, but {spec.truth} labels "
+            f"{len(truth.way.xy_m)}: the labels are of another log"
+        )
+    return BenchDrive(
+        observations, source.frame, truth.way, truth.locations, truth.designated, truth.passages
+    )
+
+
+def _on_plan(spec: OnPlan) -> BenchDrive:
+    plan, robot = load_plan(spec.folder), NOMINAL.robot()
+    placing, driving = np.random.SeedSequence((TESTING, spec.seed)).spawn(2)
+    rng, middle = np.random.default_rng(placing), roomiest(plan.grid)
+    places = np.argwhere(standing(plan.grid, middle.x_m, middle.y_m, 1.2 * robot.radius_m))
+    row, column = places[rng.integers(len(places))].tolist() if len(places) else (0, 0)
+    start = middle
+    if len(places):
+        cell_m = plan.grid.cell_m
+        start = Pose((column + 0.5) * cell_m, (row + 0.5) * cell_m, float(rng.uniform(-3, 3)))
+    simulation = Simulation(
+        plan.grid, robot, start, [Exploration()], driving, time_limit_s=LIMIT_S
+    )  # fmt: skip
+    return _driven(simulation, plan.locations, plan.lines_m)
+
+
+def _generated(spec: Simulated) -> BenchDrive:
+    condition, robot = spec.condition, spec.condition.robot()
+    drawing, cluttering, driving = np.random.SeedSequence((spec.purpose, spec.seed)).spawn(3)
+    building = build(generate(np.random.default_rng(drawing), condition.building()))
+    start = roomiest(building.grid)
+    lines_m = thresholds(building.grid, building.locations)
+    grid: GridMap = building.grid
+    if condition.false_gaps:
+        labelled = grid.points_in_grid([(place.x_m, place.y_m) for place in building.locations])
+        grid = false_gaps(
+            grid, labelled, condition.false_gaps, start, robot.radius_m,
+            np.random.default_rng(cluttering),
+        )  # fmt: skip
+    simulation = Simulation(
+        grid, robot, start, [Exploration()], driving,
+        Disturbances(crowd=Crowd(condition.people)), time_limit_s=LIMIT_S,
+    )  # fmt: skip
+    return _driven(simulation, building.locations, lines_m)
+
+
+def _driven(
+    simulation: Simulation, locations: tuple[Location, ...], lines_m: NDArray[np.float64]
+) -> BenchDrive:
+    observations = tuple(simulation)
+    truths = [observation.true_pose for observation in observations]
+    way = Way.through([(pose.x_m, pose.y_m) for pose in truths if pose is not None])
+    designated = np.array([place.kind == DESIGNATED for place in locations], bool)
+    return BenchDrive(
+        observations, "odometry", way, locations, designated, passages_through(way, lines_m)
+    )
