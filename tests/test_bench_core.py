@@ -26,6 +26,7 @@ from ssrics_like.bench import (
 )
 from ssrics_like.bench.candidates import MODELS, chosen_names
 from ssrics_like.bench.conditions import CONDITIONS, Condition
+from ssrics_like.bench.curves import OUR_COLOURS, THEIR_COLOURS
 from ssrics_like.bench.drives import (
     TRAINING,
     TUNING,
@@ -374,6 +375,11 @@ def test_the_document_has_a_row_for_each_candidate_and_says_what_is_left_out(ben
     f, chance = (bench.figures["tiny", "turning"].tally.figures()[n] for n in ("f", "f_chance"))
     assert f"| turning | {f:.2f} ({chance:.2f}) |" in text
     assert text.endswith("\nLeft out: logs.\n")
+
+
+def test_each_baseline_has_a_colour_of_its_own():
+    baselines = [one for one in make_candidates(chosen_names(), {}) if not one.is_ours]
+    assert len({*THEIR_COLOURS} - {*OUR_COLOURS}) >= len(baselines)
 
 
 def test_curves_name_every_line_and_there_are_none_without_points(bench):

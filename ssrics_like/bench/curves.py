@@ -25,7 +25,8 @@ LEFT_PT, LABELS_PT, BOTTOM_PT, TOP_PT = 34.0, 118.0, 32.0, 20.0
 LABEL_STEP_PT = 8.6
 LEAST_PT = 4.0
 OURS_PT, BASELINE_PT = 2.4, 0.9
-OUR_COLOURS = (style.BLUE, style.VERMILION, style.GREEN)
+THEIR_COLOURS = (*style.HIGHLIGHTS, style.ORANGE, style.GREEN)
+OUR_COLOURS = (style.BLUE, style.VERMILION)
 CHANCE = "chance"
 
 
@@ -100,7 +101,7 @@ def _lines(bench: Bench, points: Sequence[Course]) -> list[Line]:
     others = [candidate for candidate in bench.candidates if not candidate.is_ours]
     lines: list[Line] = []
     for group, colours, weight in (
-        (others, style.HIGHLIGHTS, BASELINE_PT),
+        (others, THEIR_COLOURS, BASELINE_PT),
         (ours, OUR_COLOURS, OURS_PT),
     ):
         for i, candidate in enumerate(group):
