@@ -59,7 +59,7 @@ WATCHED: dict[str, list[tuple[type, str]]] = {
     "mapping": [(OccupancyGrid, "take"), (OccupancyGrid, "meet")],
     "planning": [(Navigator, "look"), (Navigator, "bump")],
     "driving and odometry": [(Simulation, "_move")],
-    "novelty": [(PerceptionBuffer, "update"), (PerceptionBuffer, "flush")],
+    "perception": [(PerceptionBuffer, "update"), (PerceptionBuffer, "flush")],
     "cognition": [
         (CognitiveModel, "finish"), (Engine, "advance"), (Engine, "push"), (Engine, "settle"),
         (LandmarkModules, "admit"), (LandmarkModules, "overwrite"),
