@@ -16,14 +16,17 @@ import numpy as np
 from ssrics_like.atomic import write_atomically
 from ssrics_like.errors import CueError
 from ssrics_like.perception.doorways import DoorwayCue
-from ssrics_like.perception.gap import FEATURES
+from ssrics_like.perception.gap import FEATURES, MEASURES
 from ssrics_like.perception.trees import BoostedTrees
 
-FORMAT, VERSION = "ssrics-like doorway cue", 1
+FORMAT, VERSION = "ssrics-like doorway cue", 2
 DIGITS = 7
 MOST = 1e30
 LEAF = -1
-_KEYS = ("format", "version", "title", "source", "features", "threshold", "baseline", "trees")
+_KEYS = (
+    "format", "version", "title", "source", "measures", "features", "threshold", "baseline",
+    "trees",
+)  # fmt: skip
 _COLUMNS = ("feature", "threshold", "left", "right", "value")
 
 
@@ -50,6 +53,7 @@ def write_cue(path: Path, cue: DoorwayCue, about: Mapping[str, Any]) -> None:
         "version": VERSION,
         "title": about["title"],
         "source": dict(about["source"]),
+        "measures": MEASURES,
         "features": list(FEATURES),
         "threshold": _rounded(cue.threshold),
         "baseline": _rounded(cue.trees.baseline),
@@ -78,7 +82,7 @@ def read_cue(path: Path) -> DoorwayCue:
     for key in _KEYS:
         if key not in document:
             _refuse(path, key, "is missing")
-    _expect_measures(path, document["features"])
+    _expect_measures(path, document["measures"], document["features"])
     threshold = _number(path, "threshold", document["threshold"])
     if not 0.0 < threshold <= 1.0:
         _refuse(path, "threshold", f"{threshold:g}, expected more than 0 and at most 1")
@@ -114,8 +118,13 @@ def _document(path: Path) -> dict[str, Any]:
     return document
 
 
-def _expect_measures(path: Path, names: Any) -> None:
-    """Complain of the first measure that is not the one made here."""
+def _expect_measures(path: Path, made: Any, names: Any) -> None:
+    """Complain of measures of another version, and of the first that is not the one made here."""
+    if made != MEASURES:
+        _refuse(
+            path, "measures",
+            f"{_shown(made)}; this version of ssrics makes {MEASURES}: train the cue anew",
+        )  # fmt: skip
     if not isinstance(names, list):
         _refuse(path, "features", f"{_shown(names)}, expected a list of {len(FEATURES)} names")
     for i, name in enumerate(FEATURES):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from buildings import DOOR, Along, exact_laser, exact_robot, line, simulated, two_rooms
 from designator_drives import straight
 
 from ssrics_like import CognitiveModel, load_memory, load_perception, load_productions
@@ -39,9 +40,9 @@ from ssrics_like.bench.model import ModelDesignator
 from ssrics_like.bench.plans import load_plan
 from ssrics_like.bench.running import f_interval
 from ssrics_like.bench.tuned import Tuned, TunedDesignator
-from ssrics_like.bench.tuning import drives_of, pooled_f
+from ssrics_like.bench.tuning import at_edges, drives_of, pooled_f
 from ssrics_like.comparison import Passages, Tally, Way
-from ssrics_like.designators import Mark, tune
+from ssrics_like.designators import Mark, designate, tune
 from ssrics_like.errors import LibraryError, MapError, ResultsError
 from ssrics_like.library import folder
 from ssrics_like.maps import save_building
@@ -140,6 +141,21 @@ def test_a_models_marks_are_decided_at_the_newest_scan_of_that_moment():
     ]
     assert [(mark.scan, mark.decided_scan) for mark in marks] == expected
     assert any(decided > scan + 1 for scan, decided in expected)
+
+
+@pytest.mark.parametrize("rate_hz", [5.0, 10.0, 40.0])
+@pytest.mark.parametrize("speed_m_s", [0.45, 0.9, 1.8])
+def test_the_model_decides_about_a_doorway_within_a_metre_of_travel(rate_hz, speed_m_s):
+    robot = exact_robot(exact_laser(rate_hz=rate_hz), speed_m_s=speed_m_s)
+    there, back = line((1.0, 1.5), (5.0, 1.5)), line((5.0, 1.5), (1.0, 1.5))
+    observations = list(simulated(two_rooms(), robot, (1.0, 1.5, 0.0), [Along(there), Along(back)]))
+    marks = designate(ModelDesignator("human-like", "landmark", 0, "odometry"), observations)
+    places = np.array([(o.true_pose.x_m, o.true_pose.y_m) for o in observations])
+    way = Way.through(places)
+    assert len(marks) == 2  # declared, then recognised
+    for mark in marks:
+        assert math.dist(places[mark.scan], DOOR) <= 0.2
+        assert way.along_m[mark.decided_scan] - way.along_m[mark.scan] <= 1.0
 
 
 def test_a_model_of_an_unknown_entry_is_refused_with_the_nearest_name():
@@ -398,3 +414,11 @@ def test_the_folder_of_another_benchmark_keeps_no_curves_that_are_not_its_own(be
     (tmp_path / "file").write_text("")
     with pytest.raises(ResultsError, match="cannot be written"):
         write_bench(bench, tuned, tmp_path / "file", None)
+
+
+def test_settings_at_an_edge_of_their_grid_are_named():
+    grid = {"apart_m": (0.5, 1.0, 2.0), "threshold": (0.2, 0.5, 0.9), "mark": ("every", "peak"),
+            "sector_check": (True, False)}  # fmt: skip
+    chosen = {"apart_m": 0.5, "threshold": 0.5, "mark": "peak", "sector_check": True}
+    assert at_edges(chosen, grid) == ["apart_m"]
+    assert at_edges({**chosen, "apart_m": 1.0, "threshold": 0.9}, grid) == ["threshold"]

@@ -10,7 +10,7 @@ from ssrics_like.cues import read_cue, write_cue
 from ssrics_like.errors import CueError
 from ssrics_like.library import entries, find_cue
 from ssrics_like.perception.doorways import DoorwayCue
-from ssrics_like.perception.gap import FEATURES
+from ssrics_like.perception.gap import FEATURES, MEASURES
 from ssrics_like.perception.trees import BoostedTrees
 
 ABOUT = {"title": "two small trees", "source": {"command": "by hand", "seed": 3}}
@@ -88,7 +88,8 @@ TREE = ("trees", 0)
     ("change", "complaint"),
     [
         (at("format", value="a map"), "format: 'a map', expected 'ssrics-like doorway cue'"),
-        (at("version", value=2), "version: 2; this version of ssrics reads 1"),
+        (at("version", value=1), "version: 1; this version of ssrics reads 2"),
+        (at("measures", value=1), f"measures: 1; this version of ssrics makes {MEASURES}: train the cue"),
         (at("threshold", value=None), "threshold: is missing"),
         (at("source", value=None), "source: is missing"),
         (at("threshold", value=0), "threshold: 0, expected more than 0 and at most 1"),

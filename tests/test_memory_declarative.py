@@ -20,6 +20,7 @@ from ssrics_like.memory import (
     ViewSimilarity,
     base_level,
 )
+from ssrics_like.scenarios.modules import load_memory
 
 
 def memory_with(*chunks, similarities=None, **parameters):
@@ -391,3 +392,21 @@ def test_wrong_parameters_are_refused(wrong, message):
 def test_true_and_one_are_two_kinds_of_optimized_learning():
     assert MemoryParameters(optimized_learning=True).optimized_learning is True
     assert MemoryParameters(optimized_learning=1).optimized_learning is not True
+
+
+@pytest.mark.parametrize("visits", [1, 30, 300, 3000])
+def test_a_landmark_is_never_recalled_elsewhere_however_often_it_was_recognised(visits):
+    profile = load_memory("act-r")
+    place = PlaceSimilarity(profile.place_sigma_m, profile.place_drift)
+    memory = DeclarativeMemory(profile, np.random.default_rng(0), {"place": place})
+    memory.add(Chunk("L1", "landmark", {"id": "L1", "place": Place(0.0, 0.0, 0.0)}), 0.0)
+    for visit in range(1, visits):
+        memory.strengthen("L1", 20.0 * visit)
+    now_s = 20.0 * visits
+
+    def recalled(x_m):
+        asked = request("landmark", place=Place(x_m, 0.0, 0.0))
+        return memory.retrieve(asked, now_s).chunk is not None
+
+    assert recalled(0.5)
+    assert not any(recalled(x_m) for x_m in (2.0, 5.0, 100.0))

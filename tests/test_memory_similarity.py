@@ -152,13 +152,15 @@ def test_replacing_a_view_changes_what_it_is_similar_to():
     st.floats(0.1, 3),
     st.floats(0, 0.2),
 )
-def test_place_similarity_is_a_gaussian_whose_width_grows_with_the_way(x, y, way, sigma, drift):
+def test_place_similarity_is_the_log_of_a_gaussian_whose_width_grows_with_the_way(
+    x, y, way, sigma, drift
+):
     column = filled(PlaceSimilarity(sigma, drift), [Place(1.0, 2.0, 10.0), None])
     found = column.similarity(Place(x, y, 10.0 + way))[0]
     variance = sigma**2 + (drift * way) ** 2
-    expected = math.exp(-((x - 1) ** 2 + (y - 2) ** 2) / (2 * variance)) - 1
-    assert found == pytest.approx(expected, abs=1e-12)
-    assert -1 <= found <= 0
+    expected = -((x - 1) ** 2 + (y - 2) ** 2) / (2 * variance)
+    assert found == pytest.approx(expected, rel=1e-12, abs=1e-12)
+    assert found <= 0
 
 
 def test_a_place_visited_again_is_certain_again():

@@ -7,7 +7,7 @@ import pytest
 from buildings import Along, exact_laser, exact_robot, line, room, simulated, two_rooms
 
 from ssrics_like.perception.conditioning import condition
-from ssrics_like.perception.gap import FEATURES
+from ssrics_like.perception.gap import FEATURES, MEASURES
 from ssrics_like.perception.observation import Pose
 from ssrics_like.perception.surroundings import LAG_M, Surroundings
 
@@ -45,7 +45,7 @@ def nearest(found, x, y):
 
 
 def test_every_measure_has_a_name_of_its_own():
-    assert len(set(FEATURES)) == len(FEATURES) == 111
+    assert len(set(FEATURES)) == len(FEATURES) == 119
 
 
 @pytest.mark.parametrize("door_m", [0.8, 1.0, 1.4])
@@ -106,3 +106,18 @@ def test_neither_scan_rate_nor_speed_changes_where_places_lie(rate_hz):
     for one, two in zip(usual[:count], other[:count], strict=True):
         assert one.place.at_m == pytest.approx(two.place.at_m)
         assert one.place.x_m == pytest.approx(two.place.x_m, abs=0.02)
+
+
+def test_measures_that_come_out_otherwise_are_another_version():
+    """A cue trained on other measures must not be read: raise `MEASURES`, and train it anew."""
+    things = [
+        (2.9, 0.0, 3.1, 1.0),
+        (2.9, 2.0, 3.1, 3.0),
+        (1.8, 2.2, 2.2, 2.6),
+        (4.0, 0.4, 4.6, 0.7),
+    ]
+    grid = room(6.0, 3.0, walls=things)
+    found = described(drive(grid, (1.0, 1.5, 0.0), line((1.0, 1.5), (5.0, 1.5))), turned=0.3)
+    total = sum(float(one.measures.sum()) for one in found)
+    assert (MEASURES, len(found)) == (2, 34)
+    assert total == pytest.approx(5758.0, abs=3.0)  # a few cells, should sines be rounded otherwise

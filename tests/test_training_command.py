@@ -42,7 +42,10 @@ def test_a_small_training_writes_the_same_cue_each_time(capsys, tmp_path, monkey
     assert status == 0
     assert "seed 6" in said
     assert "spread" in said
-    assert other.read_bytes() == one.read_bytes()  # of several the first is written
+    assert other.read_bytes() == one.read_bytes()
+    second = tmp_path / "other-6.json"  # those that follow lie beside the first
+    read_cue(second)
+    assert json.loads(second.read_text())["source"]["command"].endswith("--seed 6")
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Passages, peaks and the threshold that finds nine of ten."""
+"""Passages, peaks and the threshold that finds seven of eight."""
 
 from dataclasses import replace
 
@@ -78,25 +78,25 @@ def test_a_peak_finds_a_passage_within_a_metre():
     assert (none.passages, none.passed, none.merged) == (2, 0, 0)
 
 
-def test_the_highest_threshold_that_finds_nine_of_ten():
+def test_the_highest_threshold_that_finds_seven_of_eight():
     doorways = 5.0 * np.arange(1, 11)
     sure = np.array([0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65, 0.6, 0.425, 0.2])
     p = np.zeros(560)
     for x, value in zip(doorways, sure, strict=True):
         middle = round(x / STEP_M) - 1
-        p[middle - 1 : middle + 2] = value
-    p[30] = p[31] = p[32] = 0.5  # and one where nothing is
+        p[middle - 2 : middle + 3] = value
+    p[30:35] = 0.5  # and one where nothing is
     chosen = choose_threshold(Told(), [straight(p, doorways)])
     assert chosen.threshold == 0.42
     assert chosen.tally.pass_recall == 0.9
     assert chosen.tally.precision == 0.9
     # In two buildings the passages of both count.
     chosen = choose_threshold(Told(), [straight(p, doorways), straight(p, doorways[:8])])
-    assert chosen.tally.passages == 18
-    assert chosen.threshold == 0.42
+    assert (chosen.tally.passages, chosen.tally.passed) == (18, 16)
+    assert chosen.threshold == 0.6
 
 
-def test_where_no_threshold_finds_nine_of_ten_the_lowest_is_taken():
+def test_where_no_threshold_finds_seven_of_eight_the_lowest_is_taken():
     chosen = choose_threshold(Told(), [straight(np.zeros(100), [5.0])])
     assert chosen.threshold == 0.01
     assert chosen.tally.passed == 0

@@ -32,11 +32,14 @@ class TunedDesignator(_Strict):
         Pooled F that they reach on the drives of the tuning; None without a meaning.
     tried : int
         How many choices there were.
+    edges : list of str
+        Numbers among the settings that lie at an edge of the grid: a wider one might do better.
     """
 
     settings: dict[str, Any]
     f: float | None
     tried: int
+    edges: list[str] = Field(default_factory=list)
 
 
 class Tuned(_Strict):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,7 @@ from ssrics_like.bench.drives import TRAINING, TUNING, BenchDrive, Simulated, ma
 from ssrics_like.bench.scoring import score_marks
 from ssrics_like.bench.tuned import Tuned, TunedDesignator
 from ssrics_like.comparison.tally import pooled
-from ssrics_like.designators import ScanModel, train, trials
+from ssrics_like.designators import ScanModel, designator_kind, train, trials
 from ssrics_like.designators.optional import optional
 from ssrics_like.designators.path import Steps
 from ssrics_like.training.pool import in_order
@@ -129,7 +129,10 @@ def tune_designators(
     found = {}
     for job, chosen in zip(work, _in_order(work, jobs), strict=True):
         found[job.name] = chosen
-        given = ", ".join(f"{key} {value}" for key, value in chosen.settings.items())
+        given = ", ".join(
+            f"{key} {value}" + (" (edge of the grid)" if key in chosen.edges else "")
+            for key, value in chosen.settings.items()
+        )
         say(f"tuned {job.name}: {given or 'nothing to choose'}")
     return Tuned(
         tuning=settings.tuning,
@@ -155,7 +158,23 @@ def _tuned(job: _Job) -> TunedDesignator:
     best = max(done, key=lambda one: -math.inf if math.isnan(one.score) else one.score)
     chosen = {key: value for key, value in best.settings.items() if key not in fixed}
     f = None if math.isnan(best.score) else round(best.score, 6)
-    return TunedDesignator(settings=chosen, f=f, tried=len(done))
+    return TunedDesignator(
+        settings=chosen,
+        f=f,
+        tried=len(done),
+        edges=at_edges(chosen, designator_kind(job.name).GRID),
+    )
+
+
+def at_edges(chosen: Mapping[str, Any], grid: Mapping[str, Sequence[Any]]) -> list[str]:
+    """Return the settings whose number is the least or the greatest of those tried."""
+    return [
+        key
+        for key, value in chosen.items()
+        if isinstance(value, int | float)
+        and not isinstance(value, bool)
+        and value in (min(grid[key]), max(grid[key]))
+    ]
 
 
 @lru_cache(maxsize=1)

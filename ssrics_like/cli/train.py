@@ -20,7 +20,7 @@ def train(
     what: Literal["doorways"],
     *,
     out: NeededOut,
-    buildings: Whole = 120,
+    buildings: Whole = 160,
     held_out: Whole = 40,
     seed: Whole = 1,
     repeats: Whole = 1,
@@ -51,8 +51,8 @@ def train(
     seed
         Same seed, same cue.
     repeats
-        How many trainings, with this seed and those that follow, to see how much is chance. The
-        first is written.
+        How many trainings, with this seed and those that follow, to see how much is chance. Those
+        that follow are written beside the first, as NAME-SEED.json.
     jobs
         How many drives at the same time; as many as there are cores if left out.
     quiet
@@ -66,17 +66,20 @@ def train(
         {"buildings": buildings, "held_out": held_out, "seed": seed, "repeats": repeats}
     )
     _expect_place(out)
+    places = [out, *(out.with_stem(f"{out.stem}-{seed + i}") for i in range(1, settings.repeats))]
     say = (lambda _: None) if quiet else (lambda text: print(text, flush=True))
     trainings: list[Training] = []
-    for training in train_doorways(settings, cores() if jobs is None else jobs, say):
-        if not trainings:
-            write_cue(out, training.cue, {"title": TITLE, "source": _source(what, settings)})
+    made = train_doorways(settings, cores() if jobs is None else jobs, say)
+    for place, training in zip(places, made, strict=True):
+        about = {"title": TITLE, "source": _source(what, settings, training.seed)}
+        write_cue(place, training.cue, about)
         trainings.append(training)
     if not quiet:
         from rich.console import Console
 
         Console(width=80, highlight=False).print(_table(trainings))
-        print(f"{out}: {out.stat().st_size / 1000:.0f} kB")
+        for place in places:
+            print(f"{place}: {place.stat().st_size / 1000:.0f} kB")
 
 
 def _checked(wanted: dict[str, int]) -> TrainingSettings:
@@ -105,7 +108,7 @@ def _expect_place(out: Path) -> None:
         raise CueError(f"{out.parent}: no such folder")
 
 
-def _source(what: str, settings: TrainingSettings) -> dict[str, str | int]:
+def _source(what: str, settings: TrainingSettings, seed: int) -> dict[str, str | int]:
     """Say how a cue was trained, so that it can be trained again."""
     import ssrics_like
     from ssrics_like.training.fitting import learner_version
@@ -113,9 +116,9 @@ def _source(what: str, settings: TrainingSettings) -> dict[str, str | int]:
     return {
         "command": (
             f"ssrics train {what} --buildings {settings.buildings} "
-            f"--held-out {settings.held_out} --seed {settings.seed}"
+            f"--held-out {settings.held_out} --seed {seed}"
         ),
-        "seed": settings.seed,
+        "seed": seed,
         "buildings": settings.buildings,
         "held_out": settings.held_out,
         "ssrics-like": ssrics_like.__version__,

@@ -132,8 +132,8 @@ class Bocpd(ScoredDesignator):
     GRID: ClassVar[Grid] = {
         "scale": (0.07, 0.15, 0.4),
         "lag_m": (0.3, 0.5, 0.7),
-        "threshold": (0.2, 0.6),
-        "apart_m": (1.0, 2.0),
+        "threshold": (0.1, 0.3, 0.6),
+        "apart_m": (1.0, 2.0, 4.0),
     }
     source: ClassVar[str] = "Adams & MacKay 2007"
 

@@ -71,7 +71,7 @@ class ChangePoints:
     GRID: ClassVar[Grid] = {
         "penalty": (0.5, 1.0, 2.0, 4.0),
         "width": (0.5, 1.0, 2.0),
-        "apart_m": (1.0, 2.0),
+        "apart_m": (1.0, 2.0, 4.0),
     }
     hindsight: ClassVar[bool] = True
     source: ClassVar[str] = "Arlot, Celisse & Harchaoui 2019; Truong, Oudre & Vayatis 2020"

@@ -44,7 +44,7 @@ class EveryMetres:
     """
 
     Settings: ClassVar[type[DesignatorSettings]] = EveryMetresSettings
-    GRID: ClassVar[Grid] = {"every_m": (2.0, 3.0, 5.0, 8.0, 12.0)}
+    GRID: ClassVar[Grid] = {"every_m": (0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 12.0)}
     hindsight: ClassVar[bool] = False
     source: ClassVar[str] = "a control of our own"
 

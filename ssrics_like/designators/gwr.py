@@ -176,7 +176,7 @@ class Gwr(ScoredDesignator):
     GRID: ClassVar[Grid] = {
         "activity": (0.4, 0.55, 0.7),
         "threshold": (0.5, 0.75, 1.0),
-        "apart_m": (1.0, 2.0),
+        "apart_m": (0.5, 1.0, 2.0, 4.0),
     }
     source: ClassVar[str] = "Marsland, Shapiro & Nehmzow 2002"
 

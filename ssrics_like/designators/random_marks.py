@@ -47,7 +47,7 @@ class RandomMarks:
     """
 
     Settings: ClassVar[type[DesignatorSettings]] = RandomMarksSettings
-    GRID: ClassVar[Grid] = {"per_100_m": (5.0, 10.0, 20.0, 40.0)}
+    GRID: ClassVar[Grid] = {"per_100_m": (5.0, 10.0, 20.0, 40.0, 80.0, 160.0)}
     hindsight: ClassVar[bool] = False
     source: ClassVar[str] = "a control of our own"
 

@@ -64,7 +64,7 @@ class SurpriseGaussian(ScoredDesignator):
     GRID: ClassVar[Grid] = {
         "forget_m": (0.5, 1.0, 2.0),
         "threshold_nats": (0.03, 0.06, 0.12, 0.24),
-        "apart_m": (1.0, 2.0, 3.0),
+        "apart_m": (0.5, 1.0, 2.0, 3.0),
     }
     source: ClassVar[str] = "Itti & Baldi 2009; Murphy 2007"
 

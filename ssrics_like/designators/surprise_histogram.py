@@ -70,7 +70,7 @@ class SurpriseHistogram(ScoredDesignator):
     GRID: ClassVar[Grid] = {
         "forget_m": (1.0, 2.0, 4.0),
         "threshold_nats": (0.35, 0.7, 1.2, 2.0),
-        "apart_m": (1.0, 2.0, 3.0),
+        "apart_m": (0.5, 1.0, 2.0, 3.0),
     }
     source: ClassVar[str] = "Itti & Baldi 2009; Ranganathan & Dellaert 2009"
 

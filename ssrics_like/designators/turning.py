@@ -55,8 +55,8 @@ class Turning(ScoredDesignator):
     Settings: ClassVar[type[DesignatorSettings]] = TurningSettings
     GRID: ClassVar[Grid] = {
         "window_m": (0.6, 1.0),
-        "threshold_rad": (0.3, 0.6, 1.0),
-        "apart_m": (1.0, 2.0),
+        "threshold_rad": (0.15, 0.3, 0.6, 1.0, 1.4),
+        "apart_m": (0.5, 1.0, 2.0, 4.0),
     }
     source: ClassVar[str] = "Michon & Denis 2001"
 

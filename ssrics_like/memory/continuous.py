@@ -133,7 +133,7 @@ class PlaceColumn:
     slot : str
         Its name, for messages.
     scale : SimilarityScale
-        Similarity at distance 0, and far away.
+        Similarity at distance 0, and at sqrt(2) standard deviations.
     sigma_m : float
         Standard deviation of a position just estimated, metres.
     drift : float
@@ -183,18 +183,19 @@ class PlaceColumn:
         _unordered(self.slot, order)
 
     def similarity(self, requested: Value) -> NDArray[np.float64]:
-        """``different + (equal - different) * exp(-d^2 / (2 s^2))``, shape (n,).
+        """``equal - (equal - different) * d^2 / (2 s^2)``, shape (n,).
 
         d is the distance of the two estimated positions and
-        ``s^2 = sigma^2 + (drift * path travelled between the two estimates)^2``.
+        ``s^2 = sigma^2 + (drift * path travelled between the two estimates)^2``. So it falls as the
+        logarithm of a Gaussian does. It has no floor: with one, a chunk that is used often enough
+        would be recalled everywhere, which is a use more each time.
         """
         x_m, y_m, travelled_m = self._row(requested)
         xs, ys, travelled = self._coordinates.used.T
         squared = (xs - x_m) ** 2 + (ys - y_m) ** 2
         variance = self._sigma_m**2 + (self._drift * (travelled_m - travelled)) ** 2
-        likeness = np.exp(-squared / (2 * variance))
         span = self._scale.equal - self._scale.different
-        return np.asarray(self._scale.different + span * likeness)
+        return np.asarray(self._scale.equal - span * squared / (2 * variance))
 
     def fully_similar(self, requested: Value) -> NDArray[np.bool_]:
         """Which places are the requested one."""

@@ -16,8 +16,11 @@ T = TypeVar("T")
 
 APART_M = 0.8
 """Two doorways are not nearer to each other along the way."""
-AHEAD_M = 0.2
+AHEAD_M = 0.1
 """How far the certainty is awaited to rise further before its maximum counts."""
+WEIGHTS = (1, 2, 1)
+"""A place's certainty is the mean over it and its neighbours along the way, weighted so: one place
+alone may look like a doorway by chance."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +32,7 @@ class DoorwayCue:
     trees : BoostedTrees
         Tell from the measures of a place how probably it lies in a doorway.
     threshold : float
-        Least probability, averaged over three places, of what counts as a doorway.
+        Least certainty of what counts as a doorway.
     """
 
     trees: BoostedTrees
@@ -43,16 +46,16 @@ class SeenDoorway(NamedTuple, Generic[T]):
     ----------
     place : Described
         Where it is.
-    probability : float
-        How probable it is.
+    certainty : float
+        Probability, averaged as `WEIGHTS` has it.
     """
 
     place: Described[T]
-    probability: float
+    certainty: float
 
 
 class DoorwayWatch(Generic[T]):
-    """Watches the probability of a doorway along the way for its peaks.
+    """Watches the certainty of a doorway along the way for its peaks.
 
     Parameters
     ----------
@@ -63,20 +66,21 @@ class DoorwayWatch(Generic[T]):
     def __init__(self, cue: DoorwayCue) -> None:
         self._cue = cue
         self._peaks: Peaks[Described[T]] = Peaks(cue.threshold, APART_M, AHEAD_M)
-        self._recent: deque[tuple[float, Described[T]]] = deque(maxlen=3)
+        self._recent: deque[tuple[float, Described[T]]] = deque(maxlen=len(WEIGHTS))
 
     def update(self, described: Described[T]) -> list[SeenDoorway[T]]:
         """Take the next place; return the doorway that is now certain to be one, mostly none."""
         self._recent.append((self._cue.trees.probability(described.measures), described))
-        if len(self._recent) < 3:  # noqa: PLR2004 - a place and its two neighbours
+        if len(self._recent) < len(WEIGHTS):
             return []
-        probability = sum(p for p, _ in self._recent) / 3
-        place = self._recent[1][1]
+        weighted = zip(WEIGHTS, self._recent, strict=True)
+        certainty = sum(weight * p for weight, (p, _) in weighted) / sum(WEIGHTS)
+        place = self._recent[len(WEIGHTS) // 2][1]
         return [
-            SeenDoorway(seen, p)
-            for p, seen in self._peaks.update(place.place.at_m, probability, place)
+            SeenDoorway(seen, c)
+            for c, seen in self._peaks.update(place.place.at_m, certainty, place)
         ]
 
     def flush(self) -> list[SeenDoorway[T]]:
         """Return a doorway that was still waited for, as at the end of a log."""
-        return [SeenDoorway(seen, p) for p, seen in self._peaks.flush()]
+        return [SeenDoorway(seen, c) for c, seen in self._peaks.flush()]

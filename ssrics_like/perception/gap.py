@@ -14,6 +14,10 @@ if TYPE_CHECKING:
 
     from ssrics_like.perception.local_map import LocalMap
 
+MEASURES = 2
+"""Version of the measures, raised whenever one of them comes out otherwise than before: by the
+kernels, the local map or the lag. A cue knows only those that it was trained on."""
+
 
 def _names() -> tuple[str, ...]:
     names = ["width_m", "off_middle_m", "oblique_rad"]
@@ -37,6 +41,9 @@ def _names() -> tuple[str, ...]:
     for first_m, last_m in kernels.BANDS_M:
         for lane in ("lane", "aside"):
             names += [f"{what}_{lane}@{first_m:+.1f}..{last_m:+.1f}" for what in ("full", "free")]
+    names += ["way_round_m", "way_round_unknown_m"]
+    for measure in ("jamb_aside_m", "jamb_along_m", "jamb_cells_m"):
+        names += [f"{measure}_lesser", f"{measure}_greater"]
     return tuple(names)
 
 

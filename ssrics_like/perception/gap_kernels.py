@@ -1,9 +1,4 @@
-"""The compiled inner loops of gap features: what the surroundings of a place look like.
-
-All is measured in the frame of the gap: its origin midway between the two jambs, `ahead` in the
-direction of travel through the gap, `left` along the line between the jambs. So a doorway looks
-the same however obliquely, and however far from its middle, it is passed.
-"""
+"""The compiled inner loops of gap features: what the surroundings of a place look like."""
 
 from __future__ import annotations
 
@@ -13,14 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ssrics_like.compiling import compiled
+from ssrics_like.perception.around_kernels import around
+from ssrics_like.perception.frame_kernels import LIMIT_M, framed, narrowest
 from ssrics_like.perception.local_map_kernels import CELL_M, FREE, OCCUPIED, march, state
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-LIMIT_M = 2.5  # a wall farther aside bounds no gap
-TURNS, TURN_RAD = 10, math.radians(5.0)  # the line between the jambs is sought so far either way
-OBLIQUE_M = 0.02  # what a turn of 5 degrees costs, so that of equal gaps the straight one is taken
 STEPS, STEP_M = 41, 0.1  # cross-sections, from 2 m behind the gap to 2 m ahead
 HERE = STEPS // 2
 STRETCHES = ((0, 10), (10, 16), (16, 19), (19, 22), (22, 25), (25, 31), (31, 41))
@@ -32,33 +26,6 @@ BESIDE, FINE_M = (
 )  # to either side of its line; finer than cells, or a thin wall slips
 BANDS_M = ((-2.0, -1.0), (-1.0, -0.3), (-0.3, 0.3), (0.3, 1.0), (1.0, 2.0))
 NONE = 100
-
-
-@compiled
-def narrowest(
-    evidence: NDArray[np.int8],
-    seen_m: NDArray[np.float64],
-    place: tuple[float, float, float],
-    oldest_m: float,
-) -> tuple[float, float, float]:
-    """Find the shortest line through a place from what stands left to what stands right.
-
-    Returns
-    -------
-    tuple of float
-        Metres to the left and to the right, 2.5 at most each, and the direction to the left.
-    """
-    x, y, heading = place
-    best, left, right, towards = np.inf, LIMIT_M, LIMIT_M, heading + math.pi / 2
-    for turn in range(-TURNS, TURNS + 1):
-        angle = heading + math.pi / 2 + turn * TURN_RAD
-        dx, dy = math.cos(angle), math.sin(angle)
-        to_left, _ = march(evidence, seen_m, (x, y), (dx, dy), LIMIT_M, oldest_m)
-        to_right, _ = march(evidence, seen_m, (x, y), (-dx, -dy), LIMIT_M, oldest_m)
-        width = to_left + to_right + OBLIQUE_M * abs(turn)
-        if width < best:
-            best, left, right, towards = width, to_left, to_right, angle
-    return left, right, towards
 
 
 @compiled
@@ -84,14 +51,15 @@ def gap_features(
     """
     left, right, towards = narrowest(evidence, seen_m, place, oldest_m)
     lx, ly = math.cos(towards), math.sin(towards)
-    middle = (place[0] + 0.5 * (left - right) * lx, place[1] + 0.5 * (left - right) * ly)
+    middle = framed((place[0], place[1]), (lx, ly), 0.0, 0.5 * (left - right))
     width = left + right
     out[0] = width
     out[1] = abs(left - right)
     out[2] = abs(towards - place[2] - math.pi / 2)
     at = _cross_sections(evidence, seen_m, middle, (lx, ly), width, oldest_m, out, 3)
     at = _walls(evidence, seen_m, middle, (lx, ly), width, oldest_m, out, at)
-    _floor(evidence, seen_m, middle, (lx, ly), oldest_m, out, at)
+    at = _floor(evidence, seen_m, middle, (lx, ly), oldest_m, out, at)
+    around(evidence, seen_m, middle, (lx, ly), width, oldest_m, out, at)
 
 
 @compiled
@@ -110,8 +78,7 @@ def _cross_sections(
     near, far = np.empty(STEPS), np.empty(STEPS)
     unknown = np.empty(STEPS)
     for step in range(STEPS):
-        ahead = (step - HERE) * STEP_M
-        start = (middle[0] + ahead * ly, middle[1] - ahead * lx)
+        start = framed(middle, left, (step - HERE) * STEP_M, 0.0)
         one, dark = march(evidence, seen_m, start, (lx, ly), LIMIT_M, oldest_m)
         other, dim = march(evidence, seen_m, start, (-lx, -ly), LIMIT_M, oldest_m)
         near[step], far[step], unknown[step] = min(one, other), max(one, other), dark + dim
@@ -147,7 +114,6 @@ def _walls(
     at: int,
 ) -> int:
     """Measure whether walls continue beyond both jambs: a doorway has them, a table has not."""
-    lx, ly = left
     sides = np.zeros((2, 8))
     for side in range(2):
         sign = 1.0 if side == 0 else -1.0
@@ -157,14 +123,8 @@ def _walls(
             aside = sign * (0.5 * width_m + CELL_M * (strip + 0.5))
             nearest, free = NONE, 0
             for offset in range(-BESIDE, BESIDE + 1):
-                ahead = offset * FINE_M
-                here = state(
-                    evidence,
-                    seen_m,
-                    middle[0] + aside * lx + ahead * ly,
-                    middle[1] + aside * ly - ahead * lx,
-                    oldest_m,
-                )
+                x, y = framed(middle, left, offset * FINE_M, aside)
+                here = state(evidence, seen_m, x, y, oldest_m)
                 if here == OCCUPIED and abs(offset) < abs(nearest):
                     nearest = offset
                 elif here == FREE:
@@ -201,23 +161,16 @@ def _floor(
     oldest_m: float,
     out: NDArray[np.float64],
     at: int,
-) -> None:
+) -> int:
     """Measure how much is occupied and free on the way and to its sides, in bands along it."""
-    lx, ly = left
     for first_m, last_m in BANDS_M:
         counts = np.zeros((2, 2))
         rows = round((last_m - first_m) / STEP_M)
         for row in range(rows):
             ahead = first_m + STEP_M * (row + 0.5)
             for column in range(-20, 21):
-                aside = STEP_M * column
-                here = state(
-                    evidence,
-                    seen_m,
-                    middle[0] + aside * lx + ahead * ly,
-                    middle[1] + aside * ly - ahead * lx,
-                    oldest_m,
-                )
+                x, y = framed(middle, left, ahead, STEP_M * column)
+                here = state(evidence, seen_m, x, y, oldest_m)
                 group = 0 if abs(column) <= 8 else 1  # noqa: PLR2004 - the robot's own lane
                 if here == OCCUPIED:
                     counts[group, 0] += 1
@@ -227,3 +180,4 @@ def _floor(
             out[at] = counts[group, 0] / (rows * columns)
             out[at + 1] = counts[group, 1] / (rows * columns)
             at += 2
+    return at

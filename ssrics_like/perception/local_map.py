@@ -19,8 +19,9 @@ if TYPE_CHECKING:
     from ssrics_like.perception.observation import Pose
 
 CELLS = 256
-"""Cells of 5 cm along each side: 12.8 m. Twice the reach and most of the way remembered fit in; a
-robot that drives 5 m straight on meets a few cells again, which it then sees anew."""
+"""Cells of 5 cm along each side, a power of 2: 12.8 m. Twice the reach and most of the way
+remembered fit in; a robot that drives 5 m straight on meets a few cells again, which it then sees
+anew."""
 REACH_M = 4.0
 """Beams are followed so far; what lies beyond says little about the place that the robot is at."""
 MEMORY_M = 5.0

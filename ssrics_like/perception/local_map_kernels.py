@@ -50,7 +50,7 @@ def take_scan(
     """Take a scan into the map.
 
     The map repeats itself in both directions: a cell of the world lies at its row and column
-    modulo the number of cells.
+    modulo the number of cells, which is a power of 2, so that the last bits tell.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def take_scan(
     reach_m, now_m, memory_m : float
         How far beams are followed; metres travelled so far; how long a cell is remembered.
     """
-    cells = evidence.shape[0]
+    last = evidence.shape[0] - 1
     x, y, heading = pose
     for beam in range(ranges_m.shape[0]):
         reading = ranges_m[beam]
@@ -87,7 +87,7 @@ def take_scan(
         while (column != last_column or row != last_row) and min(next_x, next_y) <= length + CELL_M:
             # A beam that grazes a wall passes its neighbours: those just before its end are left.
             if not hit or min(next_x, next_y) < length - _HALF:
-                add_evidence(evidence, seen_m, row % cells, column % cells, MISS, now_m, memory_m)
+                add_evidence(evidence, seen_m, row & last, column & last, MISS, now_m, memory_m)
             if next_x < next_y:
                 column += step_x
                 next_x += between_x
@@ -96,7 +96,7 @@ def take_scan(
                 next_y += between_y
         if hit:
             add_evidence(
-                evidence, seen_m, last_row % cells, last_column % cells, HIT, now_m, memory_m
+                evidence, seen_m, last_row & last, last_column & last, HIT, now_m, memory_m
             )
 
 
@@ -105,8 +105,8 @@ def cell_state(
     evidence: NDArray[np.int8], seen_m: NDArray[np.float64], row: int, column: int, oldest_m: float
 ) -> int:
     """Return whether a cell is OCCUPIED, FREE or UNKNOWN; seen before `oldest_m` is unknown."""
-    cells = evidence.shape[0]
-    row, column = row % cells, column % cells
+    last = evidence.shape[0] - 1
+    row, column = row & last, column & last
     if seen_m[row, column] < oldest_m or evidence[row, column] == 0:
         return UNKNOWN
     return OCCUPIED if evidence[row, column] > 0 else FREE

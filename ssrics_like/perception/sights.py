@@ -74,7 +74,7 @@ class Sights:
 
     def _moment(self, seen: SeenDoorway[Sensed]) -> Moment:
         described: Described[Sensed] = seen.place
-        self._doorway_m = described.place.at_m
+        self._doorway_m = described.place.nearest.travelled_m
         novelty = self._watch.novelty_at(described.place.at_m)
         return Moment(
             described.place.nearest._replace(structure="doorway"),

@@ -21,7 +21,7 @@ WALL_M = (0.8, 1.0, 1.2)
 """So far to both sides of a doorway its wall is looked for."""
 HALF_WIDTH_M = 1.2
 """A jamb is looked for no farther from the middle than this."""
-PANELS, POSTS = 0.15, 0.1
+PANELS, POSTS = 0.3, 0.1
 """Shares of the four corners of each doorway that have one."""
 PANEL_ASIDE_M, PANEL_M = (0.0, 0.25), (0.4, 2.5)
 POST_ASIDE_M, POST_M = (-0.05, 0.6), (0.1, 0.5)

@@ -24,7 +24,7 @@ class TrainingSettings(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
-    buildings: Annotated[int, Field(ge=1, le=100_000)] = 120
+    buildings: Annotated[int, Field(ge=1, le=100_000)] = 160
     held_out: Annotated[int, Field(ge=1, le=100_000)] = 40
     seed: Annotated[int, Field(ge=0, le=2**31)] = 1
     repeats: Annotated[int, Field(ge=1, le=100)] = 1

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ssrics_like.comparison.tally import Tally, pooled
-from ssrics_like.perception.doorways import AHEAD_M, APART_M
+from ssrics_like.perception.doorways import AHEAD_M, APART_M, WEIGHTS
 from ssrics_like.perception.walk import STEP_M
 from ssrics_like.training.passages import tally
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ssrics_like.perception.trees import BoostedTrees
     from ssrics_like.training.examples import Example
 
-FOUND = 0.9
+FOUND = 7 / 8
 """Share of the passages that should be found."""
 STEPS = 100
 """Thresholds are tried in hundredths."""
@@ -32,7 +32,7 @@ class Chosen(NamedTuple):
 
 
 def choose_threshold(trees: BoostedTrees, held_out: Sequence[Example]) -> Chosen:
-    """Choose the highest threshold at which at least nine of ten passages are found.
+    """Choose the highest threshold at which at least seven of eight passages are found.
 
     If there is none, the lowest is taken, 0.01.
 
@@ -53,14 +53,16 @@ def choose_threshold(trees: BoostedTrees, held_out: Sequence[Example]) -> Chosen
 
 
 def scores(trees: BoostedTrees, example: Example) -> NDArray[np.float64]:
-    """Return the mean probability of each place and its two neighbours, shape (places,).
+    """Return the certainty of each place, as `DoorwayWatch` has it, shape (places,).
 
-    The first place and the last have only one neighbour and are given none: NaN.
+    Places at both ends lack neighbours and are given none: NaN.
     """
     p = np.array([trees.probability(measures) for measures in example.measures])
-    mean = np.full(len(p), np.nan)
-    mean[1:-1] = (p[:-2] + p[1:-1] + p[2:]) / 3
-    return mean
+    certainty = np.full(len(p), np.nan)
+    half = len(WEIGHTS) // 2
+    if len(p) >= len(WEIGHTS):
+        certainty[half:-half] = np.convolve(p, WEIGHTS, "valid") / sum(WEIGHTS)
+    return certainty
 
 
 def peaks(score: NDArray[np.float64], threshold: float) -> NDArray[np.intp]:
