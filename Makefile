@@ -2,6 +2,7 @@
 # make test   sets up what the tests need, runs them
 # make check  lint, types, and the built wheel used outside the checkout
 # make bench  the figures of docs/benchmarks.md
+# make recompile  forgets compiled kernels, after one was changed
 # make pictures  the pictures of the documentation, from the main job
 
 PYTHON ?= python3
@@ -9,7 +10,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: run test check lint types wheel bench pictures clean
+.PHONY: run test check lint types wheel bench pictures recompile clean
 
 run: $(VENV)/.installed
 	$(BIN)/ssrics run complex --out out/complex
@@ -52,5 +53,8 @@ $(VENV)/.dev: $(VENV)/.tests
 	$(PIP) --editable '.[dev]'
 	touch $@
 
-clean:
+recompile:
+	find ssrics_like -name __pycache__ -prune -exec rm -rf {} +
+
+clean: recompile
 	rm -rf $(VENV) out dist build

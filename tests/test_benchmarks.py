@@ -22,6 +22,11 @@ def printed(*command):
     [
         ("bench_model.py", [], "times as long"),
         ("bench_flat.py", ["--scans", "1642"], "1642 scans"),
+        (
+            "bench_doorways.py",
+            ["--scans", "400", "--gaps", "20", "--repeats", "1"],
+            "ways round the 20 gaps: same",
+        ),
         ("report_rule.py", [DEMO], "| demo.log.gz | 1642 |"),
         (
             "bench_drive.py",
