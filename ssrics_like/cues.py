@@ -114,7 +114,10 @@ def _document(path: Path) -> dict[str, Any]:
         _refuse(path, "format", f"{_shown(kind)}, expected '{FORMAT}'")
     version = document.get("version")
     if version != VERSION:
-        _refuse(path, "version", f"{_shown(version)}; this version of ssrics reads {VERSION}")
+        _refuse(
+            path, "version",
+            f"{_shown(version)}; this version of ssrics reads {VERSION}: train the cue anew",
+        )  # fmt: skip
     return document
 
 
