@@ -131,8 +131,8 @@ class Bocpd(ScoredDesignator):
     Settings: ClassVar[type[DesignatorSettings]] = BocpdSettings
     GRID: ClassVar[Grid] = {
         "scale": (0.07, 0.15, 0.4),
-        "lag_m": (0.3, 0.5, 0.7),
-        "threshold": (0.1, 0.3, 0.6),
+        "lag_m": (0.5, 0.7),
+        "threshold": (0.01, 0.03, 0.1, 0.3),
         "apart_m": (1.0, 2.0, 4.0),
     }
     source: ClassVar[str] = "Adams & MacKay 2007"

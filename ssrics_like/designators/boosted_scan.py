@@ -158,8 +158,8 @@ class BoostedScan(ScoredDesignator):
 
     Settings: ClassVar[type[DesignatorSettings]] = BoostedScanSettings
     GRID: ClassVar[Grid] = {
-        "threshold": (0.2, 0.35, 0.5, 0.7, 0.9, 0.95, 0.98),
-        "apart_m": (0.5, 1.0, 2.0, 4.0),
+        "threshold": (0.5, 0.7, 0.9, 0.95, 0.98),
+        "apart_m": (0.1, 0.25, 0.5, 1.0, 2.0),
     }
     source: ClassVar[str] = "Martinez Mozos, Stachniss & Burgard 2005; Friedman 2001"
 

@@ -69,9 +69,9 @@ class ChangePoints:
 
     Settings: ClassVar[type[DesignatorSettings]] = ChangePointsSettings
     GRID: ClassVar[Grid] = {
-        "penalty": (0.5, 1.0, 2.0, 4.0),
+        "penalty": (1.0, 2.0, 4.0, 8.0, 16.0),
         "width": (0.5, 1.0, 2.0),
-        "apart_m": (1.0, 2.0, 4.0),
+        "apart_m": (2.0, 4.0, 8.0),
     }
     hindsight: ClassVar[bool] = True
     source: ClassVar[str] = "Arlot, Celisse & Harchaoui 2019; Truong, Oudre & Vayatis 2020"

@@ -95,8 +95,8 @@ class DoorwayGap:
     Settings: ClassVar[type[DesignatorSettings]] = DoorwayGapSettings
     GRID: ClassVar[Grid] = {
         "max_gap_m": (0.95, 1.05, 1.2, 1.5, 1.9),
-        "widen_m": (0.08, 0.15, 0.3, 0.5),
-        "apart_m": (0.5, 1.0, 2.0),
+        "widen_m": (0.15, 0.3, 0.5, 0.8, 1.2),
+        "apart_m": (1.0, 2.0, 4.0),
     }
     hindsight: ClassVar[bool] = False
     source: ClassVar[str] = "Thrun 1998"

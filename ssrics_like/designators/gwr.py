@@ -175,7 +175,7 @@ class Gwr(ScoredDesignator):
     Settings: ClassVar[type[DesignatorSettings]] = GwrSettings
     GRID: ClassVar[Grid] = {
         "activity": (0.4, 0.55, 0.7),
-        "threshold": (0.5, 0.75, 1.0),
+        "threshold": (0.1, 0.25, 0.5, 0.75),
         "apart_m": (0.5, 1.0, 2.0, 4.0),
     }
     source: ClassVar[str] = "Marsland, Shapiro & Nehmzow 2002"

@@ -54,7 +54,7 @@ class Turning(ScoredDesignator):
 
     Settings: ClassVar[type[DesignatorSettings]] = TurningSettings
     GRID: ClassVar[Grid] = {
-        "window_m": (0.6, 1.0),
+        "window_m": (0.6, 1.0, 1.2),
         "threshold_rad": (0.15, 0.3, 0.6, 1.0, 1.4),
         "apart_m": (0.5, 1.0, 2.0, 4.0),
     }
