@@ -1,4 +1,4 @@
-"""What it costs to see doorways: a scan on one core, and the way round a gap against scipy.
+"""What it costs to see doorways and other structure, a scan on one core; ways round against scipy.
 
     python benchmarks/bench_doorways.py [--scans N] [--gaps N] [--repeats N]
 
@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from scipy import ndimage, sparse
 from scipy.sparse.csgraph import dijkstra
 
-from ssrics_like.cues import read_cue
+from ssrics_like.cues import read_cue, read_structure_cue
 from ssrics_like.library import find, find_cue
 from ssrics_like.perception import Observation, PerceptionBuffer, PerceptionProfile, surroundings
 from ssrics_like.perception.around_kernels import BESIDE_M, HALF, ROUND_M, SIDE, around
@@ -118,7 +118,8 @@ def gaps_of(observations: list[Observation], count: int) -> list[Gap]:
 def perceive(observations: list[Observation], profile: PerceptionProfile) -> NDArray[np.float64]:
     """Return the seconds that each scan takes."""
     cue = read_cue(find_cue(profile.doorways)) if profile.doorways else None
-    buffer, seconds = PerceptionBuffer(profile, cue), []
+    structure = read_structure_cue(find_cue(profile.structure)) if profile.structure else None
+    buffer, seconds = PerceptionBuffer(profile, cue, structure), []
     for observation in observations:
         start = time.perf_counter()
         buffer.update(observation)
@@ -144,14 +145,19 @@ def main() -> int:
     print("| perceiving a scan | mean, ms | 99 of 100 within, ms | times as long |")
     print("|---|---|---|---|")
     means: list[float] = []
-    for name in ("human-like", "report"):
-        profile = load_perception(name)
+    usual = load_perception("human-like")
+    profiles = {
+        "profile `human-like`": usual,
+        "without `structure`": usual.model_copy(update={"structure": ""}),
+        "profile `report`": load_perception("report"),
+    }
+    for name, profile in profiles.items():
         perceive(observations[:200], profile)
         # The least of the repeats for each scan: what else the machine does is not perception's.
         each = np.min([perceive(observations, profile) for _ in range(arguments.repeats)], axis=0)
         means.append(float(each.mean()))
         print(
-            f"| profile `{name}` | {1e3 * means[-1]:.3f} | {1e3 * np.percentile(each, 99):.3f} "
+            f"| {name} | {1e3 * means[-1]:.3f} | {1e3 * np.percentile(each, 99):.3f} "
             f"| {means[-1] / means[0]:.2f} |"
         )
     for gap in gaps:

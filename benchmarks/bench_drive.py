@@ -136,7 +136,7 @@ def load(chosen: list[str], seed: int, limit_s: float) -> Resolved:
 def one_run(resolved: Resolved) -> Run:
     with tempfile.TemporaryDirectory() as folder:
         start = time.perf_counter()
-        (entry,) = carry_out(Task(0, (Part(resolved, Path(folder)),)), lambda _share: None)
+        (entry,) = carry_out(Task(0, (Part(resolved, Path(folder), "bench"),)), lambda _share: None)
         wall_s = time.perf_counter() - start
     return Run(entry["scans"], entry["duration_s"], wall_s)
 

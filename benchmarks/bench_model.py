@@ -36,7 +36,7 @@ def reflex(event: int, t_s: float, x_m: float, rng: np.random.Generator) -> Refl
     return Reflex(
         event=event, scan=event, t_s=t_s, pose=Pose(x_m, 0.0, 0.0), true_pose=None,
         perceived_s=t_s, travelled_m=x_m, modality="laser", novelty=0.5, sector="front",
-        structure="unknown",
+        structure="unknown", place=Pose(x_m, 0.0, 0.0), directed=False, turned_rad=0.0, carried=0,
         view=rng.normal(size=36).astype(np.float32),
     )  # fmt: skip
 

@@ -34,8 +34,7 @@ class Decision:
     activation : float or None
         Of the landmark recalled, or of the best candidate that was not; None without a candidate.
     confidence : float or None
-        Probability that the decision would be the same again under the memory's noise; None where
-        memory was not asked.
+        How probable it is that memory's answer is right; None where memory was not asked.
     """
 
     event: int

@@ -10,11 +10,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssrics_like.cues import read_cue
+from ssrics_like.cues import read_cue, read_structure_cue
 from ssrics_like.decision import Decision
 from ssrics_like.errors import choices
 from ssrics_like.library import find_cue
-from ssrics_like.memory import DeclarativeMemory, Retrieval, TopologicalMemory
+from ssrics_like.memory import DeclarativeMemory, Retrieval, SavedMemory, TopologicalMemory
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.modules import LandmarkModules
 from ssrics_like.perception.observation import Observation
@@ -25,6 +25,7 @@ from ssrics_like.productions.interface import TraceEvent
 from ssrics_like.productions.rules import Rulebook
 
 FRAMES = ("odometry", "corrected", "map")
+DRIFTS = ("place_drift", "swerve_drift_rad", "turn_drift_rad", "wheel_bias")
 
 
 class CognitiveModel:
@@ -41,17 +42,22 @@ class CognitiveModel:
     seed : int
         Seed of activation noise and utility noise.
     frame : {"odometry", "corrected", "map"}
-        Frame of the observations' poses. Only odometry drifts; in the others a place stays as
-        certain as it was, whatever the memory profile's `place_drift`.
+        Frame of the observations' poses. Only odometry drifts; in the others the memory profile's
+        drifts count as 0, and poses are not corrected by matching scans.
     trace : callable, optional
         Receives every TraceEvent; its times are in seconds since the first observation.
     retrieved : callable, optional
         Receives (engine time, Retrieval) for every retrieval, with each candidate's activation.
+    remembered : SavedMemory, optional
+        What an earlier run left: the model begins with it at the moment of its saving (see
+        `SavedMemory.aged`), and numbers landmarks on.
 
     Raises
     ------
     LibraryError, CueError
         There is no cue of the name in `perception`; it is damaged.
+    ValueError
+        `remembered` has views of another length, or positions in another frame.
 
     Examples
     --------
@@ -72,14 +78,21 @@ class CognitiveModel:
         frame: str = "odometry",
         trace: Callable[[TraceEvent], None] = lambda _: None,
         retrieved: Callable[[float, Retrieval], None] = lambda _time, _retrieval: None,
+        remembered: SavedMemory | None = None,
     ) -> None:
         if frame not in FRAMES:
             raise ValueError(f"frame is {frame!r}; expected one of {choices(FRAMES)}")
         if frame != "odometry":
-            memory = memory.model_copy(update={"place_drift": 0.0})
+            memory = memory.model_copy(update=dict.fromkeys(DRIFTS, 0.0))
+            perception = perception.model_copy(update={"egomotion": "odometry"})
+        elif perception.egomotion == "laser":
+            memory = memory.model_copy(update={"wheel_bias": 0.0})
         memory_seed, utility_seed = np.random.SeedSequence(seed).spawn(2)
         doorways = read_cue(find_cue(perception.doorways)) if perception.doorways else None
-        self.perception = PerceptionBuffer(perception, doorways)
+        structure = (
+            read_structure_cue(find_cue(perception.structure)) if perception.structure else None
+        )
+        self.perception = PerceptionBuffer(perception, doorways, structure)
         self._decisions: list[Decision] = []
         self._modules = LandmarkModules(
             memory, np.random.default_rng(memory_seed), self._decisions.append, retrieved
@@ -91,8 +104,15 @@ class CognitiveModel:
             seed=int(utility_seed.generate_state(1)[0]),
             trace=trace,
         )
+        self._frame = frame
+        self._remembered = remembered
         self._start_s: float | None = None
         self._previous: Observation | None = None
+        if remembered is not None:
+            remembered.check_views(perception.view_beams)
+            remembered.check_frame(frame)
+            remembered.recall_into(self._modules.declarative)
+            self._modules.start_from(remembered.topological())
 
     @property
     def declarative(self) -> DeclarativeMemory:
@@ -103,6 +123,13 @@ class CognitiveModel:
     def topological(self) -> TopologicalMemory:
         """The landmarks and the arcs between them."""
         return self._modules.topological
+
+    @property
+    def now_s(self) -> float:
+        """The model's time: seconds since the first observation."""
+        if self._previous is None or self._start_s is None:
+            return self.engine.now_s
+        return max(self.engine.now_s, self._previous.t_s - self._start_s)
 
     @property
     def decisions_pending(self) -> int:
@@ -131,6 +158,8 @@ class CognitiveModel:
         if self._start_s is None:
             self._start_s = observation.t_s
             self._modules.begin(observation.t_s)
+            if self._remembered is not None:  # the graph's times are those of the source
+                self._modules.start_from(self._remembered.topological(observation.t_s))
         if self._previous is not None and observation.t_s < self._previous.t_s:
             raise ValueError(
                 f"observation {observation.index} is at {observation.t_s} s, before "
@@ -158,6 +187,34 @@ class CognitiveModel:
                 self._orient(reflex, max(now_s, self.engine.now_s))
         self.engine.settle()
         return self._take()
+
+    def saved_memory(self, run: str) -> SavedMemory:
+        """Return what a later run can go on from: all that memory holds now.
+
+        Parameters
+        ----------
+        run : str
+            Names this run among all runs, so that its landmarks are known again when memories
+            are merged.
+
+        Returns
+        -------
+        SavedMemory
+
+        Raises
+        ------
+        ValueError
+            The model began with a memory that has been through a run of this name.
+        """
+        return SavedMemory.of(
+            self.declarative,
+            self.topological,
+            run=run,
+            before=self._remembered,
+            now_s=self.now_s,
+            start_s=self._start_s or 0.0,
+            frame=self._frame,
+        )
 
     def _orient(self, reflex: Reflex, now_s: float) -> None:
         """Put a reflex before the productions; one that waited there in vain is lost."""

@@ -2,7 +2,8 @@
 
 Rules see words only. A view or a place is too rich for a word, so it travels
 through the rules as a handle: ``view-12`` is that of reflex 12, ``view-of-L3``
-that of landmark L3. Handles are looked up here on their way to memory.
+that of landmark L3. Handles are looked up here on their way to memory. A place is
+compared with where the robot expects its landmarks: see `Whereabouts`.
 """
 
 from __future__ import annotations
@@ -19,20 +20,27 @@ from ssrics_like.errors import EngineError
 from ssrics_like.memory import (
     Chunk,
     DeclarativeMemory,
-    Place,
-    PlaceSimilarity,
+    Here,
+    Hypothesis,
+    ListedSimilarity,
     Request,
     Retrieval,
     TableSimilarity,
     TopologicalMemory,
+    Uncertainty,
+    Value,
     View,
     ViewSimilarity,
+    Whereabouts,
 )
 from ssrics_like.memory.profile import MemoryProfile
+from ssrics_like.memory.whereabouts import FAR
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.productions.interface import BufferChunk, MarkRequest, Recall, SlotTest
 
 CONTINUOUS = ("view", "place")
+VIEW_OF, PLACE_OF = "view-of-", "place-of-"
+UNSETTLED = 0.5  # a robot that is lost is not more confident than this
 SECTORS = ("left", "front", "right")
 REMEMBERED = 64  # decided reflexes whose handles rules may still use
 
@@ -68,22 +76,38 @@ class LandmarkModules:
                     dict.fromkeys(itertools.combinations(SECTORS, 2), profile.sector_difference)
                 ),
                 "view": ViewSimilarity(profile.view_difference),
-                "place": PlaceSimilarity(profile.place_sigma_m, profile.place_drift),
+                "place": ListedSimilarity(self._likeness_of_places, -FAR),
             },
         )
-        self.topological = TopologicalMemory()
+        self._uncertainty = Uncertainty(
+            place_m=profile.place_sigma_m,
+            direction_rad=profile.direction_sigma_rad,
+            drift=profile.place_drift,
+            swerve_rad=profile.swerve_drift_rad,
+            turn_rad=profile.turn_drift_rad,
+            bias=profile.wheel_bias,
+        )
+        self._expected: dict[str, float] = {}
+        self.start_from(TopologicalMemory())
         self._decided = decided
         self._retrieved = retrieved
         self._start_s = 0.0
         self._waiting: dict[str, Reflex] = {}
         self._known: OrderedDict[str, Reflex] = OrderedDict()
-        self._last: tuple[str, Reflex] | None = None
-        self._recalled: Retrieval | None = None
+        self._recalled: tuple[Retrieval, float] | None = None
+        self._carried = 0
 
     @property
     def undecided(self) -> int:
         """Number of reflexes about which nothing was decided yet."""
         return len(self._waiting)
+
+    def start_from(self, topological: TopologicalMemory) -> None:
+        """Begin with a graph; where in it the robot is, it does not know."""
+        self.topological = topological
+        self._whereabouts = Whereabouts(self._uncertainty, topological.links)
+        if len(topological):
+            self._whereabouts.lose()
 
     def begin(self, start_s: float) -> None:
         """Set the source's time that is zero in the engine."""
@@ -93,6 +117,9 @@ class LandmarkModules:
         """Register a reflex and return its chunk for the orienting buffer."""
         event = str(reflex.event)
         self._waiting[event] = reflex
+        if reflex.carried > self._carried:
+            self._carried = reflex.carried
+            self._whereabouts.lose()
         slots = {
             "event": event,
             "modality": reflex.modality,
@@ -122,26 +149,27 @@ class LandmarkModules:
         EngineError
             The rule asks for a view or place by a word that is no handle.
         """
-        slots = tuple((t.slot, self._value(t.slot, t.value), t.negated) for t in tests)
+        slots = tuple((t.slot, self._asked(t.slot, t.value), t.negated) for t in tests)
         found = self.declarative.retrieve(Request(chunk_type, slots), t_s, sources)
-        self._recalled = found
+        confidence = self._confidence(found)
+        self._recalled = found, confidence
         self._retrieved(t_s, found)
         if found.chunk is None:
-            return Recall(None, found.latency_s)
+            return Recall(None, found.latency_s, confidence)
         name = found.chunk.name
         words = {
-            slot: f"{slot}-of-{name}" if isinstance(value, View | Place) else str(value)
+            slot: f"{slot}-of-{name}" if isinstance(value, View) else str(value)
             for slot, value in found.chunk.slots.items()
         }
-        return Recall(BufferChunk(found.chunk.type, words, name), found.latency_s)
+        return Recall(BufferChunk(found.chunk.type, words, name), found.latency_s, confidence)
 
     def harvest(self, chunk: BufferChunk, t_s: float) -> None:
         """Take a cleared chunk into declarative memory (DeclarativeModule)."""
         if chunk.name is not None and chunk.name in self.declarative:
             self.declarative.strengthen(chunk.name, t_s)
             return
-        slots = {slot: self._value(slot, word) for slot, word in chunk.slots.items()}
         name = chunk.name or f"{chunk.chunk_type}-{len(self.declarative)}"
+        slots = {slot: self._kept(slot, word, name) for slot, word in chunk.slots.items()}
         self.declarative.add(Chunk(name, chunk.chunk_type, slots), t_s)
 
     def mark(self, request: MarkRequest) -> BufferChunk | None:
@@ -163,10 +191,16 @@ class LandmarkModules:
             raise EngineError(f"recognises '{name}', which is no landmark")
         made = None
         if request.outcome == "declared":
-            name = f"L{len(self.topological) + 1}"
+            name = self.topological.next_id()
             made = self._declare(name, reflex)
-        if request.outcome in ("declared", "recognised"):
-            self._arrive(name, reflex, new=made is not None)
+        here = _here(reflex)
+        if request.outcome == "declared":
+            self._arrive(name, reflex, self._whereabouts.find(name, here), new=True)
+        elif request.outcome == "recognised":
+            self._expect(reflex)
+            self._arrive(name, reflex, self._whereabouts.recognise(name, here), new=False)
+        elif request.outcome == "unsure" and self._recalled is not None:
+            self._doubt(reflex, self._recalled[0])
         self._decide(
             request.event, request.t_s, request.outcome, name, request.rule, self._recalled
         )
@@ -194,60 +228,84 @@ class LandmarkModules:
         }
         return BufferChunk("landmark", slots, name)
 
-    def _arrive(self, name: str, reflex: Reflex, *, new: bool) -> None:
-        """Note in the memories that the robot came to a landmark, if it was at another before."""
-        if self._last is not None and self._last[0] != name:
-            left, before = self._last
-            dx = reflex.pose.x_m - before.pose.x_m
-            dy = reflex.pose.y_m - before.pose.y_m
-            self.topological.traverse(
-                left,
-                name,
-                math.hypot(dx, dy),
-                math.atan2(dy, dx) - before.pose.theta_rad,
-                # Rules may decide about two reflexes in either order; the way between is the same.
-                abs(reflex.travelled_m - before.travelled_m),
-            )
-            if not new:
-                self.topological.visit(name, reflex.t_s)
-                self._relocate(name, reflex)
-        self._last = (name, reflex)
-
-    def _relocate(self, name: str, reflex: Reflex) -> None:
-        """Move a landmark's place towards where odometry has it now.
-
-        By the ratio of variances (a Kalman gain): all the way after long travel, when odometry has
-        drifted by more than a mark scatters; not at all without drift. So a landmark follows the
-        drift, and does not creep after the robot.
-        """
-        place = self.declarative[name].slots.get("place") if name in self.declarative else None
-        if not isinstance(place, Place):
+    def _arrive(self, name: str, reflex: Reflex, before: Hypothesis | None, *, new: bool) -> None:
+        """Note in the graph that the robot came to a landmark, if it was at another before."""
+        if before is None or before.landmark is None or before.landmark == name:
             return
-        drift = (self.profile.place_drift * (reflex.travelled_m - place.travelled_m)) ** 2
-        gain = drift / (drift + self.profile.place_sigma_m**2)
-        here = Place(
-            place.x_m + gain * (reflex.pose.x_m - place.x_m),
-            place.y_m + gain * (reflex.pose.y_m - place.y_m),
-            reflex.travelled_m,
+        start, end = before.at.place, reflex.place
+        self.topological.traverse(
+            before.landmark,
+            name,
+            start.distance_m(end),
+            math.atan2(end.y_m - start.y_m, end.x_m - start.x_m) - start.theta_rad,
+            # Rules may decide about two reflexes in either order; the way between is the same.
+            abs(reflex.travelled_m - before.at.travelled_m),
         )
-        self.declarative.replace(name, "place", here)
+        if not new:
+            self.topological.visit(name, reflex.t_s)
 
-    def _value(self, slot: str, word: str) -> str | View | Place:
-        """Look a handle up; other slots hold plain words."""
+    def _expect(self, reflex: Reflex) -> None:
+        """Reckon how improbable each landmark is where a reflex was fired."""
+        landmarks = (landmark.id for landmark in self.topological.nodes)
+        self._expected = self._whereabouts.expect(_here(reflex), landmarks)
+
+    def _doubt(self, reflex: Reflex, recalled: Retrieval) -> None:
+        """Go on with every landmark that this may be, by all else that speaks for each."""
+        self._expect(reflex)
+        found = recalled.candidates
+        evidence = {
+            str(name): float(total - noise) + self._expected.get(str(name), FAR)
+            for name, total, noise in zip(found.names, found.total, found.noise, strict=True)
+        }
+        self._whereabouts.doubt(_here(reflex), evidence, found.threshold)
+
+    def _confidence(self, recalled: Retrieval) -> float:
+        """Return how probable it is that what was recalled, or that nothing was, is right."""
+        share = _share_of_odds(recalled)
+        name = None if recalled.chunk is None else recalled.chunk.name
+        return share if self._whereabouts.settled(name) else min(share, UNSETTLED)
+
+    def _likeness_of_places(self, asked: Value) -> dict[Value, float]:
+        """Similarity of landmarks' places to that of a reflex, which was reckoned before."""
+        del asked
+        return {f"{PLACE_OF}{name}": -nats for name, nats in self._expected.items()}
+
+    def _asked(self, slot: str, word: str) -> Value:
+        """Look up what a request asks for; only views and places are more than words."""
         if slot not in CONTINUOUS:
             return word
-        kind, _, rest = word.partition("-")
-        owner = rest.removeprefix("of-")
-        if kind == slot and owner != rest and owner in self.declarative:
-            stored = self.declarative[owner].slots.get(slot)
-            if isinstance(stored, View | Place):
-                return stored
-        reflex = self._waiting.get(rest) or self._known.get(rest)
-        if kind != slot or reflex is None:
-            raise EngineError(f"slot '{slot}' holds '{word}', which is no {slot} of a reflex")
+        if slot == "view" and (stored := self._stored_view(word)) is not None:
+            return stored
+        reflex = self._reflex_of(slot, word)
         if slot == "view":
             return View(word, reflex.view)
-        return Place(reflex.pose.x_m, reflex.pose.y_m, reflex.travelled_m)
+        self._expect(reflex)
+        return word
+
+    def _kept(self, slot: str, word: str, name: str) -> Value:
+        """Return what a chunk of some name keeps in a slot."""
+        if slot not in CONTINUOUS:
+            return word
+        if slot == "view" and (stored := self._stored_view(word)) is not None:
+            return stored
+        reflex = self._reflex_of(slot, word)
+        return View(word, reflex.view) if slot == "view" else f"{PLACE_OF}{name}"
+
+    def _stored_view(self, word: str) -> View | None:
+        """Return the view of a landmark, by its handle."""
+        owner = word.removeprefix(VIEW_OF)
+        if owner == word or owner not in self.declarative:
+            return None
+        stored = self.declarative[owner].slots.get("view")
+        return stored if isinstance(stored, View) else None
+
+    def _reflex_of(self, slot: str, word: str) -> Reflex:
+        """Return the reflex that a handle belongs to."""
+        kind, _, event = word.partition("-")
+        reflex = self._waiting.get(event) or self._known.get(event)
+        if kind != slot or reflex is None:
+            raise EngineError(f"slot '{slot}' holds '{word}', which is no {slot} of a reflex")
+        return reflex
 
     def _decide(
         self,
@@ -256,13 +314,13 @@ class LandmarkModules:
         outcome: str,
         landmark: str,
         rule: str,
-        recalled: Retrieval | None,
+        recalled: tuple[Retrieval, float] | None,
     ) -> None:
         reflex = self._waiting.pop(event)
         self._known[event] = reflex
         if len(self._known) > REMEMBERED:
             self._known.popitem(last=False)
-        activation, confidence = self._certainty(recalled)
+        best = None if recalled is None else recalled[0].candidates.best
         self._decided(
             Decision(
                 event=reflex.event,
@@ -279,24 +337,27 @@ class LandmarkModules:
                 decision=outcome,
                 landmark=landmark,
                 rule=rule,
-                activation=activation,
-                confidence=confidence,
+                activation=None if best is None else best.total,
+                confidence=None if recalled is None else recalled[1],
             )
         )
 
-    def _certainty(self, recalled: Retrieval | None) -> tuple[float | None, float | None]:
-        """Return the best activation, and how probable this retrieval's outcome was.
 
-        Every candidate i passes the threshold with ACT-R's recall probability
-        p_i = 1 / (1 + exp(-(A_i - tau) / s)), A_i before noise; a failure has the probability
-        prod(1 - p_i), a success the rest. Without noise either is certain.
-        """
-        if recalled is None:
-            return None, None
-        found = recalled.candidates
-        best = found.best
-        if best is None or self.profile.activation_noise == 0:
-            return best.total if best else None, 1.0
-        above = (found.total - found.noise - found.threshold) / self.profile.activation_noise
-        failure = float(np.exp(-np.logaddexp(0.0, above).sum()))
-        return best.total, failure if recalled.chunk is None else 1.0 - failure
+def _here(reflex: Reflex) -> Here:
+    return Here(reflex.place, reflex.directed, reflex.travelled_m, reflex.turned_rad)
+
+
+def _share_of_odds(recalled: Retrieval) -> float:
+    """Return the share of what was recalled, or of nothing, in the odds of all candidates.
+
+    Activation is the logarithm of the odds that a chunk is needed (Anderson 1990), here that this
+    is the landmark, and the threshold that of the odds that it is none of them: so each has the
+    share exp(A_i) of the sum, noise aside.
+    """
+    found = recalled.candidates
+    if not math.isfinite(found.threshold):  # activation is not reckoned
+        return 1.0
+    odds = np.append(found.total - found.noise, found.threshold)
+    share = np.exp(odds - np.logaddexp.reduce(odds))
+    chosen = -1 if recalled.chunk is None or found.winner is None else found.winner
+    return float(share[chosen])

@@ -21,6 +21,7 @@ def printed(*command):
     ("script", "arguments", "said"),
     [
         ("bench_model.py", [], "times as long"),
+        ("bench_memory_files.py", ["200", "2"], "times as long to save"),
         ("bench_flat.py", ["--scans", "1642"], "1642 scans"),
         (
             "bench_doorways.py",

@@ -179,7 +179,7 @@ def test_check_reports_every_problem_of_every_file(capsys, tmp_path):
         (folder("productions") / "landmark.yaml")
         .read_text()
         .replace("state free", "state fre")
-        .replace("buffer failure", "bufer failure")
+        .replace("buffer failure", "bufer failure", 1)
     )
     memory = tmp_path / "memory.yaml"
     memory.write_text("decay: -1\nretrieval_treshold: 2\n")

@@ -48,14 +48,15 @@ LATENCIES = {
 class NoMemory:
     """Recalls nothing, after a set time; keeps what it was asked and given."""
 
-    def __init__(self, latency_s=0.1):
+    def __init__(self, latency_s=0.1, confidence=1.0):
         self.latency_s = latency_s
+        self.confidence = confidence
         self.asked = []
         self.harvested = []
 
     def recall(self, chunk_type, tests, t_s, sources):
         self.asked.append((chunk_type, tuple(tests), t_s, sources))
-        return Recall(None, self.latency_s)
+        return Recall(None, self.latency_s, self.confidence)
 
     def harvest(self, chunk, t_s):
         self.harvested.append((chunk, t_s))
@@ -224,6 +225,32 @@ def test_time_passes_only_where_something_happens():
     assert engine.now_s < 1.0
     engine.push("orienting", reflex(0, "left"), 1000.0)
     assert engine.now_s == pytest.approx(1000.0)
+
+
+@pytest.mark.parametrize(
+    ("confidence", "outcome", "rule"), [(0.95, "declared", "declare"), (0.5, "unsure", "wonder")]
+)
+def test_a_model_that_is_not_sure_says_so(confidence, outcome, rule):
+    engine, marks, _ = make("landmark", NoMemory(confidence=confidence))
+    engine.push("orienting", reflex(0, "left"), 1.0)
+    engine.settle()
+    (request,) = marks.requests
+    assert (request.outcome, request.rule) == (outcome, rule)
+
+
+def test_before_memory_was_asked_no_confidence_is_above_or_below(tmp_path):
+    text = find("productions", "report").read_text()
+    for query in ("confidence_above 0.0", "confidence_below 1.0"):
+        path = tmp_path / "asks.yaml"
+        path.write_text(
+            text.replace(
+                "      =orienting>\n", f"      ?retrieval>\n          {query}\n      =orienting>\n"
+            )
+        )
+        engine, marks, _ = make(path)
+        engine.push("orienting", reflex(0, "left"), 1.0)
+        engine.settle()
+        assert marks.requests == []
 
 
 def test_numeric_queries_compare_the_novelty_of_the_reflex(tmp_path):

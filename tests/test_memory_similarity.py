@@ -1,4 +1,4 @@
-"""Similarities of slot values: tables, functions, views and places."""
+"""Similarities of slot values: tables, functions, lists and views."""
 
 import math
 
@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from ssrics_like.memory import (
     FunctionSimilarity,
-    Place,
-    PlaceSimilarity,
+    ListedSimilarity,
     TableSimilarity,
     View,
     ViewSimilarity,
@@ -145,34 +144,12 @@ def test_replacing_a_view_changes_what_it_is_similar_to():
         column.replace(0, two)
 
 
-@given(
-    st.floats(-50, 50),
-    st.floats(-50, 50),
-    st.floats(0, 500),
-    st.floats(0.1, 3),
-    st.floats(0, 0.2),
-)
-def test_place_similarity_is_the_log_of_a_gaussian_whose_width_grows_with_the_way(
-    x, y, way, sigma, drift
-):
-    column = filled(PlaceSimilarity(sigma, drift), [Place(1.0, 2.0, 10.0), None])
-    found = column.similarity(Place(x, y, 10.0 + way))[0]
-    variance = sigma**2 + (drift * way) ** 2
-    expected = -((x - 1) ** 2 + (y - 2) ** 2) / (2 * variance)
-    assert found == pytest.approx(expected, rel=1e-12, abs=1e-12)
-    assert found <= 0
-
-
-def test_a_place_visited_again_is_certain_again():
-    column = filled(PlaceSimilarity(1.0, 0.1), [None, Place(0.0, 0.0, 0.0)])
-    before = column.similarity(Place(2.0, 0.0, 100.0))[1]
-    column.replace(1, Place(0.0, 0.0, 100.0))
-    assert column.similarity(Place(2.0, 0.0, 100.0))[1] < before
-    assert column.equals(Place(0.0, 0.0, 100.0)).tolist() == [False, True]
-    assert column.fully_similar(Place(0.0, 0.0, 0.0)).tolist() == [False, False]
-
-
-@pytest.mark.parametrize(("sigma", "drift"), [(0.0, 0.1), (math.nan, 0.1), (1.0, -0.1)])
-def test_place_parameters_out_of_range_are_refused(sigma, drift):
-    with pytest.raises(ValueError, match="place_"):
-        PlaceSimilarity(sigma, drift)
+def test_listed_values_have_the_similarity_of_the_moment_and_all_others_another():
+    now = {"L1": -0.5, "L9": -0.1}
+    column = filled(ListedSimilarity(lambda asked: now if asked == "here" else {}, -20.0),
+                    ["L1", None, "L2"])  # fmt: skip
+    assert column.similarity("here")[[0, 2]].tolist() == [-0.5, -20.0]
+    assert column.similarity("there")[[0, 2]].tolist() == [-20.0, -20.0]
+    now["L2"] = -3.0
+    assert column.similarity("here")[[0, 2]].tolist() == [-0.5, -3.0]
+    assert column.present.tolist() == [True, False, True]

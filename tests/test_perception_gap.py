@@ -35,13 +35,17 @@ def described(observations, turned=0.0):
     return found
 
 
-def nearest(found, x, y):
+def nearest_place(found, x, y):
     return min(
         found,
         key=lambda d: math.hypot(
             d.place.nearest.true_pose.x_m - x, d.place.nearest.true_pose.y_m - y
         ),
-    ).measures
+    )
+
+
+def nearest(found, x, y):
+    return nearest_place(found, x, y).measures
 
 
 def test_every_measure_has_a_name_of_its_own():
@@ -77,6 +81,20 @@ def test_how_obliquely_a_doorway_is_passed_and_the_frame_do_not_matter():
         measures = nearest(described(seen, turned), 3.0, 1.5)
         assert measures[AT["width_m"]] == pytest.approx(1.0, abs=0.13)
         assert measures[AT["oblique_rad"]] == pytest.approx(0.46, abs=0.18)
+
+
+def test_a_doorway_lies_in_one_place_whichever_way_it_is_passed():
+    grid = two_rooms(1.0)
+    for turned in (0.0, 0.7, 2.0):
+        there = described(drive(grid, (1.6, 0.8, 0.4636), line((1.6, 0.8), (4.4, 2.2))), turned)
+        back = described(drive(grid, (4.4, 1.3, 3.0), line((4.4, 1.3), (1.6, 1.7))), turned)
+        c, s = math.cos(turned), math.sin(turned)
+        for found, through in ((there, turned), (back, turned + math.pi)):
+            gap = nearest_place(found, 3.0, 1.5).gap
+            assert gap.x_m == pytest.approx(3.0 * c - 1.5 * s, abs=0.12)
+            assert gap.y_m == pytest.approx(3.0 * s + 1.5 * c, abs=0.12)
+            assert -math.pi <= gap.theta_rad <= math.pi
+            assert abs(math.remainder(gap.theta_rad - through, math.tau)) < 0.18
 
 
 def test_a_mirror_image_looks_the_same():

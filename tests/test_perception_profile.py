@@ -24,13 +24,22 @@ def test_the_reports_profile_has_the_reports_values():
 
 
 def test_the_defaults_are_those_of_the_human_like_profile_but_for_what_it_looks_along():
-    plain = {"title": "", "source": "", "along": "scans", "doorways": "", "interval": 20}
+    plain = {
+        "title": "",
+        "source": "",
+        "along": "scans",
+        "egomotion": "odometry",
+        "doorways": "",
+        "structure": "",
+        "interval": 20,
+    }
     assert load("human-like").model_copy(update=plain) == PerceptionProfile()
 
 
 def test_a_cue_needs_places_along_the_way():
-    with pytest.raises(ValidationError, match="set along: metres"):
-        PerceptionProfile(doorways="doorways")
+    for key in ("doorways", "structure"):
+        with pytest.raises(ValidationError, match=f"{key}: .* set along: metres"):
+            PerceptionProfile(**{key: "one"})
 
 
 def test_every_key_of_a_shipped_profile_is_described_in_its_readme():

@@ -66,6 +66,22 @@ def test_each_passage_is_seen():
     assert seen[1][0].travelled_m > 5.0
 
 
+@pytest.mark.parametrize("egomotion", ["odometry", "laser"])
+@pytest.mark.parametrize("aside_m", [-0.15, 0.0, 0.15])
+def test_a_doorway_has_one_place_however_it_is_passed(aside_m, egomotion):
+    there = line((1.0, 1.5 - aside_m), (5.0, 1.5 + aside_m))
+    back = line((5.0, 1.5 + aside_m), (1.0, 1.5 - aside_m))
+    profile = ALONG.model_copy(update={"egomotion": egomotion})
+    fired, _ = reflexes(drive(np.concatenate([there, back])), profile)
+    seen = [reflex for reflex, _ in fired if reflex.structure == "doorway"]
+    assert len(seen) == 2
+    for reflex, through in zip(seen, (0.0, math.pi), strict=True):
+        assert math.hypot(reflex.place.x_m - DOOR[0], reflex.place.y_m - DOOR[1]) <= 0.15
+        assert abs(math.remainder(reflex.place.theta_rad - through, math.tau)) <= 0.1
+        assert reflex.directed
+    assert seen[1].turned_rad - seen[0].turned_rad >= 0.9 * math.pi
+
+
 def test_without_a_doorway_there_is_none_and_rooms_and_corridors_have_their_names():
     wide = drive(grid=two_rooms(2.9))
     assert doorways(wide) == []

@@ -162,17 +162,21 @@ view_beams: 9
 """
 TINY_MEMORY = """\
 activation_noise: 0.0
+retrieval_threshold: -6.5
 place_sigma_m: 0.5
 place_drift: 0.0
+swerve_drift_rad: 0.0
+turn_drift_rad: 0.0
+wheel_bias: 0.0
 """
 TINY_ROWS = {  # worked out by hand from the log below
     # Reflex 0 at 1 s is attended in 50 ms, found unknown in 0.001 exp(6.5) = 0.665 s and declared in
     # 50 ms. Reflex 2, back at the first place at 21 s: L1, stored at 1.815 s, has the base level
-    # ln (21.05 - 1.815)^-0.5 = -1.478314; the place is the same; the view is too; so is the sector.
+    # ln (21.05 - 1.815)^-0.5 = -1.478314; the place is where it is expected, and the view the same.
     "decisions.csv": [
         "0,0,1,1,1.765,0,0,0.5,,,laser,1,left,unknown,declared,L1,declare,,1",
         "0,1,3,11,11.765,3,4,0,,,laser,1,right,unknown,declared,L2,declare,{far},1",
-        "0,2,5,21,21.104,0,0,0.5,,,laser,1,left,unknown,recognised,L1,recognise,{near},1",
+        "0,2,5,21,21.104,0,0,0.5,,,laser,1,left,unknown,recognised,L1,recognise,{near},{sure}",
     ],
     # Permanence: base levels when the last production has fired, at 21.104 s.
     "landmarks.csv": [
@@ -211,11 +215,14 @@ def test_a_tiny_log_gives_the_rows_worked_out_by_hand(tmp_path):
 
     stored = 1.815, 11.815
     last_s = 21.104
-    views = 8.0 * -0.125  # two views that do not correlate
-    far = level(11.05, stored[0]) - 8 * 5.0**2 / (2 * 0.5**2) + views - 1.0
+    # As good as excluded by its place, and two views that do not correlate.
+    far = level(11.05, stored[0]) - 20.0 - 2.0
+    # Where L1 lies from L2 is known to 2 cm, no better, beside the half metre of perceiving it.
+    near = level(21.05, stored[0]) - math.log((0.5**2 + 0.02**2) / 0.5**2)
     values = {
         "far": far,
-        "near": level(21.05, stored[0]),
+        "near": near,
+        "sure": math.exp(near) / (math.exp(near) + math.exp(-6.5)),
         "both": level(last_s, stored[0], last_s),
         "one": level(last_s, stored[1]),
     }
@@ -530,7 +537,9 @@ def test_a_robot_that_jumps_and_a_log_too_short_are_said(tmp_path):
     manifest = run_scenario(scenario(tmp_path / "short.log"), tmp_path / "short")
     assert any("hardly longer than one interval of 1.2 m" in t for t in manifest["warnings"])
     plain = scenario(
-        tmp_path / "short.log", set={"perception.along": "scans", "perception.doorways": ""}
+        tmp_path / "short.log",
+        set=dict.fromkeys(("perception.doorways", "perception.structure"), "")
+        | {"perception.along": "scans"},
     )
     manifest = run_scenario(plain, tmp_path / "plain")
     assert any("fewer than one interval of 12" in text for text in manifest["warnings"])

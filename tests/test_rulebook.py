@@ -107,6 +107,8 @@ def test_grammar_errors_name_their_line(rule, line, said):
         ("=g>\n", "?retrieval> stat free\n      =g>\n", 4, "unknown query 'stat'; did you mean 'state'?"),
         ("=g>\n", "?retrieval> state fre\n      =g>\n", 4, "did you mean 'free'?"),
         ("=g>\n", "?orienting> novelty_above much\n      =g>\n", 4, "where a number of 0 to 1 was expected"),
+        ("=g>\n", "?retrieval> confidence_above 2\n      =g>\n", 4, "where a number of 0 to 1 was expected"),
+        ("=g>\n", "?orienting> confidence_above 0.5\n      =g>\n", 4, "unknown query"),
         ("      =orienting>", "      =g> isa task\n      =orienting>", 7, "'=g>' stands twice"),
         ("          outcome declared\n", "", 11, "slot 'outcome' is missing"),
         ("outcome declared", "outcome recognised", 11, "slot 'landmark' is missing"),

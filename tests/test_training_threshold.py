@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ssrics_like.perception.doorways import DoorwayCue, DoorwayWatch
+from ssrics_like.perception.observation import Pose
 from ssrics_like.perception.surroundings import Described
 from ssrics_like.perception.walk import STEP_M, Place
 from ssrics_like.training.examples import Example
@@ -33,7 +34,7 @@ def watched(probabilities, threshold):
     seen = []
     for i, p in enumerate(probabilities):
         place = Place(STEP_M * (i + 2), 0.0, 0.0, 0.0, i)
-        seen += watch.update(Described(place, np.array([p])))
+        seen += watch.update(Described(place, np.array([p]), Pose(0.0, 0.0, 0.0)))
     return [one.place.place.nearest for one in seen + watch.flush()]
 
 

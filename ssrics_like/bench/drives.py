@@ -47,19 +47,26 @@ class Simulated:
         Which building, and all randomness of the drive.
     purpose : int
         What it serves.
+    visit : int
+        Which drive through that building; from the second on it begins at a place drawn at random.
     """
 
     condition: Condition
     seed: int
     purpose: int = TESTING
+    visit: int = 0
 
 
 @dataclass(frozen=True)
 class OnPlan:
-    """A drive through a floor plan, from a place drawn at random; `seed` says which."""
+    """A drive through a floor plan, from a place drawn at random; `seed` says which.
+
+    The laser, robot and odometry are those of `condition`; the building is the plan's.
+    """
 
     folder: Path
     seed: int
+    condition: Condition = NOMINAL
 
 
 @dataclass(frozen=True)
@@ -132,15 +139,9 @@ def _of_log(spec: OfLog) -> BenchDrive:
 
 
 def _on_plan(spec: OnPlan) -> BenchDrive:
-    plan, robot = load_plan(spec.folder), NOMINAL.robot()
+    plan, robot = load_plan(spec.folder), spec.condition.robot()
     placing, driving = np.random.SeedSequence((TESTING, spec.seed)).spawn(2)
-    rng, middle = np.random.default_rng(placing), roomiest(plan.grid)
-    places = np.argwhere(standing(plan.grid, middle.x_m, middle.y_m, 1.2 * robot.radius_m))
-    row, column = places[rng.integers(len(places))].tolist() if len(places) else (0, 0)
-    start = middle
-    if len(places):
-        cell_m = plan.grid.cell_m
-        start = Pose((column + 0.5) * cell_m, (row + 0.5) * cell_m, float(rng.uniform(-3, 3)))
+    start = _drawn_start(plan.grid, robot.radius_m, np.random.default_rng(placing))
     simulation = Simulation(
         plan.grid, robot, start, [Exploration()], driving, time_limit_s=LIMIT_S
     )  # fmt: skip
@@ -160,11 +161,24 @@ def _generated(spec: Simulated) -> BenchDrive:
             grid, labelled, condition.false_gaps, start, robot.radius_m,
             np.random.default_rng(cluttering),
         )  # fmt: skip
+    if spec.visit:
+        placing, driving = driving.spawn(spec.visit + 1)[-1].spawn(2)
+        start = _drawn_start(grid, robot.radius_m, np.random.default_rng(placing))
     simulation = Simulation(
         grid, robot, start, [Exploration()], driving,
         Disturbances(crowd=Crowd(condition.people)), time_limit_s=LIMIT_S,
     )  # fmt: skip
     return _driven(simulation, building.locations, lines_m)
+
+
+def _drawn_start(grid: GridMap, radius_m: float, rng: np.random.Generator) -> Pose:
+    """Draw a place where the robot can stand, and a heading; the roomiest if it fits nowhere."""
+    middle = roomiest(grid)
+    places = np.argwhere(standing(grid, middle.x_m, middle.y_m, 1.2 * radius_m))
+    if not len(places):
+        return middle
+    row, column = places[rng.integers(len(places))].tolist()
+    return Pose((column + 0.5) * grid.cell_m, (row + 0.5) * grid.cell_m, float(rng.uniform(-3, 3)))
 
 
 def _driven(

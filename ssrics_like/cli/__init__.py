@@ -12,7 +12,19 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError, Parameter
 
 import ssrics_like
-from ssrics_like.cli import bench, check, compare, library, maps, replay, report, run, schema, train
+from ssrics_like.cli import (
+    bench,
+    check,
+    compare,
+    library,
+    maps,
+    memory,
+    replay,
+    report,
+    run,
+    schema,
+    train,
+)
 from ssrics_like.errors import SsricsError
 
 USER_ERROR = 1
@@ -56,6 +68,18 @@ map_app.command(maps.draw, help_epilogue="")
 map_app.command(maps.generate, help_epilogue="")
 map_app.command(maps.show, help_epilogue="")
 app.command(map_app)
+memory_app = App(
+    name="memory",
+    help="Look at what runs have left in memory, merge it, hand it on.",
+    help_epilogue="""For example:
+
+    ssrics memory show out/demo/
+    ssrics run demo -o out/second/ --memory-from out/demo/""",
+)
+memory_app.command(memory.show, help_epilogue="")
+memory_app.command(memory.merge, help_epilogue="")
+memory_app.command(memory.export, help_epilogue="")
+app.command(memory_app)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

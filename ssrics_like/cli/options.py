@@ -25,6 +25,7 @@ Overrides = Annotated[tuple[str, ...], Parameter(name="--set", negative="", cons
 Radii = Annotated[
     tuple[str, ...], Parameter(negative="", consume_multiple=False, show_default=False)
 ]
+MemoryFrom = Annotated[Path | None, Parameter(name="--memory-from")]
 Runs = Annotated[
     int | None,
     Parameter(name=["--runs", "-n"], converter=_whole, validator=validators.Number(gte=1)),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ssrics_like.cli.options import Flag, Jobs, Out, Overrides, Quiet, Whole
+from ssrics_like.cli.options import Flag, Jobs, MemoryFrom, Out, Overrides, Quiet, Whole
 
 
 def replay(
@@ -14,6 +14,7 @@ def replay(
     perception: str = "human-like",
     productions: str = "landmark",
     memory: str = "act-r",
+    memory_from: MemoryFrom = None,
     set_: Overrides = (),
     runs: Whole = 1,
     seed: Whole = 2006,
@@ -32,6 +33,7 @@ def replay(
         ssrics replay robot.log -o out/
         ssrics replay robot.log.gz -o out/ --perception report --productions report
         ssrics replay robot.log -o out/ --set memory.decay=0.3
+        ssrics replay tuesday.log --memory-from out/monday/ --set memory_pause_s=86400
 
     Parameters
     ----------
@@ -45,6 +47,9 @@ def replay(
         Rule set, likewise.
     memory
         Memory profile, likewise.
+    memory_from
+        Begin with what is remembered from an earlier run: a results folder (run 3 goes on from
+        its run 3, all from the only one) or a file of memory.
     set_
         Override one value, key=value; may be given again.
     runs
@@ -84,6 +89,7 @@ def replay(
             "perception": perception,
             "productions": productions,
             "memory": memory,
+            "memory_from": None if memory_from is None else str(memory_from),
             "runs": runs,
             "seed": seed,
         }

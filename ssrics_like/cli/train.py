@@ -1,23 +1,28 @@
-"""``ssrics train``: what the model knows of doorways, learned anew."""
+"""``ssrics train``: what the model knows of doorways and other structure, learned anew."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from ssrics_like.cli.options import Jobs, NeededOut, Quiet, Whole
 
 if TYPE_CHECKING:
-    from rich.table import Table
+    from collections.abc import Callable
 
-    from ssrics_like.training import Training, TrainingSettings
+    from ssrics_like.cli.train_table import Row
+    from ssrics_like.training import StructureTraining, Training, TrainingSettings
 
-TITLE = "Doorways, learned in buildings made up at random"
+What = Literal["doorways", "structure"]
+TITLES: dict[What, str] = {
+    "doorways": "Doorways, learned in buildings made up at random",
+    "structure": "Openings, junctions, corners, hallways, learned in buildings made up at random",
+}
 
 
 def train(
-    what: Literal["doorways"],
+    what: What,
     *,
     out: NeededOut,
     buildings: Whole = 160,
@@ -27,27 +32,27 @@ def train(
     jobs: Jobs = None,
     quiet: Quiet = False,
 ) -> None:
-    """Train a cue that tells doorways from what a robot senses on its way.
+    """Train a cue that tells doorways, or other structure, from what a robot senses on its way.
 
     A robot explores buildings made up at random; gradient boosting learns what
-    doorways look like there. No data from outside are used. It takes some minutes
-    and needs scikit-learn.
+    doorways look like there, or openings, junctions, corners and hallways. No data
+    from outside are used. It takes some minutes and needs scikit-learn.
 
     For example:
 
         ssrics train doorways -o doorways.json
-        ssrics train doorways -o doorways.json --repeats 3
+        ssrics train structure -o structure.json --repeats 3
 
     Parameters
     ----------
     what
-        What is learned: doorways.
+        What is learned: doorways or structure.
     out
-        The cue, a JSON file. A perception profile names it by `doorways`.
+        The cue, a JSON file. A perception profile names it by `doorways` or `structure`.
     buildings
         How many buildings it learns from.
     held_out
-        How many others the threshold is chosen on.
+        How many others thresholds are chosen on. Of structure, figures come from as many more.
     seed
         Same seed, same cue.
     repeats
@@ -58,9 +63,7 @@ def train(
     quiet
         Print nothing but errors.
     """
-    from ssrics_like.cues import write_cue
     from ssrics_like.scenarios.pool import cores
-    from ssrics_like.training import train_doorways
 
     settings = _checked(
         {"buildings": buildings, "held_out": held_out, "seed": seed, "repeats": repeats}
@@ -68,18 +71,48 @@ def train(
     _expect_place(out)
     places = [out, *(out.with_stem(f"{out.stem}-{seed + i}") for i in range(1, settings.repeats))]
     say = (lambda _: None) if quiet else (lambda text: print(text, flush=True))
-    trainings: list[Training] = []
-    made = train_doorways(settings, cores() if jobs is None else jobs, say)
-    for place, training in zip(places, made, strict=True):
-        about = {"title": TITLE, "source": _source(what, settings, training.seed)}
-        write_cue(place, training.cue, about)
-        trainings.append(training)
+    learn = _doorways if what == "doorways" else _structure
+    seeds, rows = learn(places, settings, cores() if jobs is None else jobs, say)
     if not quiet:
         from rich.console import Console
 
-        Console(width=80, highlight=False).print(_table(trainings))
+        from ssrics_like.cli.train_table import table
+
+        Console(width=80, highlight=False).print(table(seeds, rows))
         for place in places:
             print(f"{place}: {place.stat().st_size / 1000:.0f} kB")
+
+
+def _doorways(
+    places: list[Path], settings: TrainingSettings, jobs: int, say: Callable[[str], None]
+) -> tuple[list[int], list[Row]]:
+    """Train, write each cue, and return the seeds and the figures."""
+    from ssrics_like.cli.train_table import doorway_rows
+    from ssrics_like.cues import write_cue
+    from ssrics_like.training import train_doorways
+
+    trainings: list[Training] = []
+    for place, training in zip(places, train_doorways(settings, jobs, say), strict=True):
+        source = _source("doorways", settings, training.seed)
+        write_cue(place, training.cue, {"title": TITLES["doorways"], "source": source})
+        trainings.append(training)
+    return [one.seed for one in trainings], doorway_rows(trainings)
+
+
+def _structure(
+    places: list[Path], settings: TrainingSettings, jobs: int, say: Callable[[str], None]
+) -> tuple[list[int], list[Row]]:
+    """Train, write each cue, and return the seeds and the figures."""
+    from ssrics_like.cli.train_table import structure_rows
+    from ssrics_like.cues import write_structure_cue
+    from ssrics_like.training import train_structure
+
+    trainings: list[StructureTraining] = []
+    for place, training in zip(places, train_structure(settings, jobs, say), strict=True):
+        source = _source("structure", settings, training.seed) | {"figures": _figures(training)}
+        write_structure_cue(place, training.cue, {"title": TITLES["structure"], "source": source})
+        trainings.append(training)
+    return [one.seed for one in trainings], structure_rows(trainings)
 
 
 def _checked(wanted: dict[str, int]) -> TrainingSettings:
@@ -108,7 +141,7 @@ def _expect_place(out: Path) -> None:
         raise CueError(f"{out.parent}: no such folder")
 
 
-def _source(what: str, settings: TrainingSettings, seed: int) -> dict[str, str | int]:
+def _source(what: What, settings: TrainingSettings, seed: int) -> dict[str, Any]:
     """Say how a cue was trained, so that it can be trained again."""
     import ssrics_like
     from ssrics_like.training.fitting import learner_version
@@ -126,32 +159,23 @@ def _source(what: str, settings: TrainingSettings, seed: int) -> dict[str, str |
     }
 
 
-def _table(trainings: Sequence[Training]) -> Table:
-    """Return a column for each training; of several their mean and spread too."""
-    import statistics
+def _figures(training: StructureTraining) -> dict[str, Any]:
+    """Return how good a cue is: where thresholds were chosen, and in buildings not yet seen."""
 
-    from rich import box
-    from rich.table import Table
+    def share(value: float) -> float | None:
+        return None if math.isnan(value) else round(value, 3)
 
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    table.add_column("", no_wrap=True)
-    for one in trainings:
-        table.add_column(f"seed {one.seed}", justify="right")
-    if len(trainings) > 1:
-        table.add_column("mean", justify="right")
-        table.add_column("spread", justify="right")
-    rows: list[tuple[str, str, list[float]]] = [
-        ("places learned from", ".0f", [one.places for one in trainings]),
-        ("  in doorways", ".1%", [one.positive for one in trainings]),
-        ("threshold", ".2f", [one.cue.threshold for one in trainings]),
-        ("held out: passages", ".0f", [one.held_out.passages for one in trainings]),
-        ("  found (recall)", ".3f", [one.held_out.pass_recall for one in trainings]),
-        ("  marks at a label (precision)", ".3f", [one.held_out.precision for one in trainings]),
-        ("  F", ".3f", [one.held_out.f for one in trainings]),
-    ]
-    for name, form, values in rows:
-        cells = [*values]
-        if len(values) > 1:
-            cells += [statistics.mean(values), statistics.stdev(values)]
-        table.add_row(name, *(format(value, form) for value in cells))
-    return table
+    return {
+        where: {
+            by: {
+                word: {
+                    "n": one.told,
+                    "recall": share(one.recall),
+                    "precision": share(one.precision),
+                }
+                for word, one in counts.items()
+            }
+            for by, counts in found.items()
+        }
+        for where, found in {"held_out": training.held_out, **training.unseen}.items()
+    }

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 DEFINITIONS = {
-    "mark": "a reflex that was declared or recognised, at its true position where that is known",
+    "mark": "a reflex that was called a landmark (declared, recognised, or unsure which), at its "
+    "true position where that is known",
     "designated": "the places that should be found: the doorways of a map; of a labelled log those "
     "that the robot went through",
     "found": "a place is found by one mark at most, a mark finds one place at most, within the "

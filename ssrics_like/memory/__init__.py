@@ -1,23 +1,26 @@
 """How it remembers: chunks that fade, and a graph of places.
 
-Pure but for `store`: values in, values out.
+Pure but for `files`, `store` and `saved_file`: values in, values out.
 """
 
 from ssrics_like.memory.base_level import base_level
 from ssrics_like.memory.candidates import CandidateRow, Candidates, Retrieval
-from ssrics_like.memory.chunks import Chunk, Place, Request, Value, View
+from ssrics_like.memory.chunks import Chunk, Request, Value, View
 from ssrics_like.memory.declarative import DeclarativeMemory
 from ssrics_like.memory.landmark import Arc, Landmark
 from ssrics_like.memory.parameters import MemoryParameters
+from ssrics_like.memory.saved import PastRun, RememberedChunk, SavedMemory
+from ssrics_like.memory.saved_file import load_memory_file, save_memory_file
 from ssrics_like.memory.similarity import (
     FunctionSimilarity,
-    PlaceSimilarity,
+    ListedSimilarity,
     SlotSimilarity,
     TableSimilarity,
     ViewSimilarity,
 )
 from ssrics_like.memory.store import load_topology, save_topology
 from ssrics_like.memory.topological import TopologicalMemory
+from ssrics_like.memory.whereabouts import Here, Hypothesis, Uncertainty, Whereabouts
 
 __all__ = [
     "Arc",
@@ -26,19 +29,27 @@ __all__ = [
     "Chunk",
     "DeclarativeMemory",
     "FunctionSimilarity",
+    "Here",
+    "Hypothesis",
     "Landmark",
+    "ListedSimilarity",
     "MemoryParameters",
-    "Place",
-    "PlaceSimilarity",
+    "PastRun",
+    "RememberedChunk",
     "Request",
     "Retrieval",
+    "SavedMemory",
     "SlotSimilarity",
     "TableSimilarity",
     "TopologicalMemory",
+    "Uncertainty",
     "Value",
     "View",
     "ViewSimilarity",
+    "Whereabouts",
     "base_level",
+    "load_memory_file",
     "load_topology",
+    "save_memory_file",
     "save_topology",
 ]

@@ -46,6 +46,13 @@ class ReferenceLog:
         mine: NDArray[np.bool_] = self.rows.used == row
         return self.times_s.used[mine]
 
+    def by_chunk(self) -> list[NDArray[np.float64]]:
+        """Return the times of every chunk's references, each in the order of arrival."""
+        rows = self.rows.used
+        order = np.argsort(rows, kind="stable")
+        ends = np.cumsum(np.bincount(rows, minlength=self._chunks))
+        return np.split(self.times_s.used[order], ends[:-1]) if self._chunks else []
+
     def base_levels(
         self,
         t_s: float,

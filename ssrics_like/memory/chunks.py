@@ -66,24 +66,7 @@ class View:
         return hash(self.name)
 
 
-@dataclass(frozen=True)
-class Place:
-    """Where the robot believed to be, and how far it had come by then.
-
-    Attributes
-    ----------
-    x_m, y_m : float
-        Estimated position, metres.
-    travelled_m : float
-        Length of the path driven since the start, metres: what odometry drifts with.
-    """
-
-    x_m: float
-    y_m: float
-    travelled_m: float
-
-
-Value: TypeAlias = str | float | View | Place
+Value: TypeAlias = str | float | View
 """What a slot can hold. Text is a symbol: it can be a source of spreading activation."""
 
 Modifier: TypeAlias = bool | Literal["<", "<=", ">", ">="]

@@ -1,27 +1,25 @@
-"""Columns of continuous values: views as a matrix, places as coordinates."""
+"""Columns of continuous values: views as a matrix."""
 
 from __future__ import annotations
 
-from typing import NoReturn, TypeVar
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ssrics_like.memory.chunks import Place, Value, View
+from ssrics_like.memory.chunks import Value, View
 from ssrics_like.memory.columns import SimilarityScale
 from ssrics_like.memory.growing import GrowingArray
 
-Kind = TypeVar("Kind", View, Place)
 
-
-def _expect(kind: type[Kind], slot: str, value: Value) -> Kind:
-    if not isinstance(value, kind):
-        raise TypeError(f"slot '{slot}' takes a {kind.__name__}, got {value!r}")
+def _expect_view(slot: str, value: Value) -> View:
+    if not isinstance(value, View):
+        raise TypeError(f"slot '{slot}' takes a View, got {value!r}")
     return value
 
 
 def _unordered(slot: str, order: str) -> NoReturn:
-    raise TypeError(f"slot '{slot}': {order} needs numbers; views and places have no order")
+    raise TypeError(f"slot '{slot}': {order} needs numbers; views have no order")
 
 
 def _level(view: View) -> float:
@@ -54,7 +52,7 @@ class ViewColumn:
 
     def check(self, value: Value) -> None:
         """Raise TypeError unless it is a View, ValueError unless as long as the others."""
-        view = _expect(View, self.slot, value)
+        view = _expect_view(self.slot, value)
         if self._directions is None:
             return
         length = self._directions.used.shape[1]
@@ -66,7 +64,7 @@ class ViewColumn:
 
     def append(self, value: Value | None) -> None:
         """Add the view of the next chunk; None if it lacks the slot."""
-        view = None if value is None else _expect(View, self.slot, value)
+        view = None if value is None else _expect_view(self.slot, value)
         if self._directions is None and view is not None:
             self._directions = GrowingArray(np.float32, len(view.descriptor))
             for _ in self._views:
@@ -80,7 +78,7 @@ class ViewColumn:
     def replace(self, row: int, value: Value) -> None:
         """Store another view for a chunk that has one."""
         self.check(value)
-        view = _expect(View, self.slot, value)
+        view = _expect_view(self.slot, value)
         if self._directions is None or self._views[row] is None:
             raise ValueError(f"slot '{self.slot}' of chunk {row} is empty: nothing to replace")
         self._views[row] = view
@@ -107,7 +105,7 @@ class ViewColumn:
         Numbers are float32 inside; the error of r is below 1e-6.
         """
         self.check(requested)
-        view = _expect(View, self.slot, requested)
+        view = _expect_view(self.slot, requested)
         level = _level(view)
         if self._directions is None:
             return np.full(len(self._views), self._scale.different)
@@ -122,81 +120,4 @@ class ViewColumn:
 
     def fully_similar(self, requested: Value) -> NDArray[np.bool_]:
         """Which views are the requested one."""
-        return self.equals(requested)
-
-
-class PlaceColumn:
-    """Places of many chunks: coordinates, and the path length when they were estimated.
-
-    Parameters
-    ----------
-    slot : str
-        Its name, for messages.
-    scale : SimilarityScale
-        Similarity at distance 0, and at sqrt(2) standard deviations.
-    sigma_m : float
-        Standard deviation of a position just estimated, metres.
-    drift : float
-        Growth of that deviation per metre travelled since.
-    """
-
-    def __init__(self, slot: str, scale: SimilarityScale, sigma_m: float, drift: float) -> None:
-        self.slot = slot
-        self._scale = scale
-        self._sigma_m = sigma_m
-        self._drift = drift
-        self._present = GrowingArray(np.bool_)
-        self._coordinates = GrowingArray(np.float64, 3)
-
-    def check(self, value: Value) -> None:
-        """Raise TypeError unless it is a Place."""
-        _expect(Place, self.slot, value)
-
-    def append(self, value: Value | None) -> None:
-        """Add the place of the next chunk; None if it lacks the slot."""
-        row = (np.nan,) * 3 if value is None else self._row(value)
-        self._present.append(value is not None)
-        self._coordinates.append(row)
-
-    def replace(self, row: int, value: Value) -> None:
-        """Store a newer estimate for a chunk that has a place."""
-        if not self._present.used[row]:
-            raise ValueError(f"slot '{self.slot}' of chunk {row} is empty: nothing to replace")
-        self._coordinates.used[row] = self._row(value)
-
-    def _row(self, value: Value) -> tuple[float, float, float]:
-        place = _expect(Place, self.slot, value)
-        return place.x_m, place.y_m, place.travelled_m
-
-    @property
-    def present(self) -> NDArray[np.bool_]:
-        """Which chunks have the slot, shape (n,)."""
-        return self._present.used
-
-    def equals(self, requested: Value) -> NDArray[np.bool_]:
-        """Which chunks have exactly this place, shape (n,)."""
-        return np.asarray((self._coordinates.used == self._row(requested)).all(axis=1))
-
-    def ordered(self, order: str, bound: Value) -> NDArray[np.bool_]:
-        """Refuse: places have no order."""
-        del bound
-        _unordered(self.slot, order)
-
-    def similarity(self, requested: Value) -> NDArray[np.float64]:
-        """``equal - (equal - different) * d^2 / (2 s^2)``, shape (n,).
-
-        d is the distance of the two estimated positions and
-        ``s^2 = sigma^2 + (drift * path travelled between the two estimates)^2``. So it falls as the
-        logarithm of a Gaussian does. It has no floor: with one, a chunk that is used often enough
-        would be recalled everywhere, which is a use more each time.
-        """
-        x_m, y_m, travelled_m = self._row(requested)
-        xs, ys, travelled = self._coordinates.used.T
-        squared = (xs - x_m) ** 2 + (ys - y_m) ** 2
-        variance = self._sigma_m**2 + (self._drift * (travelled_m - travelled)) ** 2
-        span = self._scale.equal - self._scale.different
-        return np.asarray(self._scale.equal - span * squared / (2 * variance))
-
-    def fully_similar(self, requested: Value) -> NDArray[np.bool_]:
-        """Which places are the requested one."""
         return self.equals(requested)

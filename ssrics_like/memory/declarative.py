@@ -114,21 +114,51 @@ class DeclarativeMemory:
         TypeError
             If a value does not suit its slot.
         """
-        content = _content(chunk)
-        if (known := self._name_of.get(content)) is not None:
+        if (known := self._name_of.get(_content(chunk))) is not None:
             self.strengthen(known, t_s)
             return known
+        self._append(chunk, t_s)
+        return chunk.name
+
+    def restore(self, chunk: Chunk, references_s: Sequence[float]) -> None:
+        """Put a chunk in memory as another memory had it: with its history, and never merged.
+
+        Parameters
+        ----------
+        chunk : Chunk
+            One that equals it stays a chunk of its own, as after `replace`.
+        references_s : sequence of float
+            When it was added and strengthened, seconds; below 0 is before this memory's time.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :meth:`add`; or there is no reference.
+        """
+        if not references_s:
+            raise ValueError(f"chunk '{chunk.name}' has no reference; expected one or more")
+        first_s, *later_s = map(_finite, references_s)
+        self._append(chunk, first_s)
+        table, row = self._where[chunk.name]
+        for t_s in later_s:
+            table.references.add_reference(row, t_s)
+
+    def histories(self) -> list[tuple[Chunk, NDArray[np.float64]]]:
+        """Return every chunk with the times of its references, in the order of `names`."""
+        times = {id(table): table.references.by_chunk() for table in self._tables.values()}
+        return [(table.chunks[row], times[id(table)][row]) for table, row in self._where.values()]
+
+    def _append(self, chunk: Chunk, t_s: float) -> None:
         if chunk.name in self._where:
             raise ValueError(f"another chunk is called '{chunk.name}' already: {self[chunk.name]}")
         table = self._tables.get(chunk.type) or ChunkTable(self.parameters, self._similarities)
         row = table.append(chunk, _finite(t_s), len(self))
         self._tables[chunk.type] = table
         self._where[chunk.name] = table, row
-        self._name_of[content] = chunk.name
+        self._name_of.setdefault(_content(chunk), chunk.name)
         for value in chunk.slots.values():
             if isinstance(value, str):
                 self._fan[value] = self._fan.get(value, 0) + 1
-        return chunk.name
 
     def strengthen(self, name: str, t_s: float) -> None:
         """Add one reference to a chunk.

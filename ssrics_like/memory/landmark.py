@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import TypeAlias
@@ -11,9 +12,10 @@ import numpy as np
 
 Label: TypeAlias = str | int | float | bool
 
-RESERVED_LABELS = frozenset({"closed", "same_as", "component"})
+RESERVED_LABELS = frozenset({"closed", "same_as", "component", "origin"})
 """Kept for what later versions will say of a landmark or arc: a way found shut, the same
-place met from another side, a part of the map not yet joined to the rest."""
+place met from another side, a part of the map not yet joined to the rest. `origin` is said in
+files of memory: where a landmark was declared."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,11 @@ class Arc:
         Circular mean, and angular deviation (0 to sqrt(2)).
     path_m, path_sd_m : float
         Length of the path driven: mean and standard deviation.
+    x_m, y_m, theta_rad : float
+        Pose of the destination in the frame of the landmark where the arc begins: its origin is
+        that landmark, its x axis the direction in which it was declared.
+    position_sd_m, direction_sd_rad : float
+        How uncertain that is, standard deviations; 0 if it was not measured.
     """
 
     from_id: str
@@ -74,9 +81,21 @@ class Arc:
     bearing_sd_rad: float
     path_m: float
     path_sd_m: float
+    x_m: float = 0.0
+    y_m: float = 0.0
+    theta_rad: float = 0.0
+    position_sd_m: float = 0.0
+    direction_sd_rad: float = 0.0
 
 
+GIVEN_NAME = re.compile(r"L([0-9]{1,9})")
 NOT_LABELS = frozenset(f.name for f in fields(Landmark))
+
+
+def number_of(landmark: str) -> int:
+    """Return the number in a name that the model gives, L7; 0 for any other name."""
+    found = GIVEN_NAME.fullmatch(landmark)
+    return int(found[1]) if found else 0
 
 
 def checked_labels(labels: Mapping[str, Label | None]) -> dict[str, Label]:

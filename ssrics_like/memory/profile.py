@@ -24,22 +24,32 @@ class MemoryProfile(MemoryParameters):
     view_difference : float
         Similarity of two views that do not correlate. A view is egocentric too: a place looks
         another from the other side.
-    place_sigma_m : float
-        Standard deviation, in metres, of where a landmark is marked from one visit to the next.
+    place_sigma_m, direction_sigma_rad : float
+        Standard deviations, metres and radians, of where a landmark is perceived from one visit to
+        the next, and of the direction of a doorway.
     place_drift : float
-        Growth of that deviation per metre travelled since the landmark was last visited.
+        Standard deviation of path integration after one metre, metres; it grows with the square
+        root of the way.
+    swerve_drift_rad, turn_drift_rad : float
+        Of its heading: after one metre of path, and after turning by one radian.
+    wheel_bias : float
+        Share by which wheels mismeasure ways and turns, where perception does not correct them.
     """
 
     title: str = ""
     source: str = ""
-    retrieval_threshold: float = -6.5
+    retrieval_threshold: float = -11.5
     latency_factor: Annotated[float, Field(ge=0, le=1e6)] = 0.001
-    mismatch_penalty: float | None = 8.0
+    mismatch_penalty: float | None = 1.0
     activation_noise: Annotated[float, Field(ge=0)] = 0.1
     source_activation: dict[Literal["g", "imaginal"], float] = Field(  # type: ignore[assignment]
         default={"imaginal": 1.0}
     )
-    sector_difference: Annotated[float, Field(le=0)] = -0.125
-    view_difference: Annotated[float, Field(le=0)] = -0.125
-    place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 1.0
+    sector_difference: Annotated[float, Field(le=0)] = 0.0
+    view_difference: Annotated[float, Field(le=0)] = -2.0
+    place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 0.2
+    direction_sigma_rad: Annotated[float, Field(ge=1e-3, le=1e3)] = 0.25
     place_drift: Annotated[float, Field(ge=0, le=1e3)] = 0.02
+    swerve_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.002
+    turn_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.003
+    wheel_bias: Annotated[float, Field(ge=0, le=1)] = 0.02

@@ -1,4 +1,4 @@
-"""How alike a slot's values are: by table, by function, by view, by place.
+"""How alike a slot's values are: by table, by function, by list, by view.
 
 A `SlotSimilarity` describes; the column that it makes stores the slot's values and
 compares. So one description serves several memories and several chunk types.
@@ -6,13 +6,12 @@ compares. So one description serves several memories and several chunk types.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Protocol
 
 from ssrics_like.memory.chunks import Value
 from ssrics_like.memory.columns import CodedColumn, SimilarityScale, SlotColumn
-from ssrics_like.memory.continuous import PlaceColumn, ViewColumn
+from ssrics_like.memory.continuous import ViewColumn
 
 
 class SlotSimilarity(Protocol):
@@ -102,30 +101,28 @@ class ViewSimilarity:
         return ViewColumn(slot, scale)
 
 
-class PlaceSimilarity:
-    """Similarity of places: how compatible two estimated positions are.
+class ListedSimilarity:
+    """Similarities that are reckoned anew for each request, of a few values of many.
 
     Parameters
     ----------
-    place_sigma_m : float
-        Standard deviation of a position just estimated, metres; above 0.
-    place_drift : float
-        How fast it grows: metres of deviation per metre travelled since; 0 or more.
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of its range.
+    listed : callable
+        From the requested value to the similarities of other values.
+    otherwise : float
+        Similarity of every value that is not listed.
     """
 
-    def __init__(self, place_sigma_m: float, place_drift: float) -> None:
-        if not (math.isfinite(place_sigma_m) and place_sigma_m > 0):
-            raise ValueError(f"place_sigma_m is {place_sigma_m!r}; expected metres above 0")
-        if not (math.isfinite(place_drift) and place_drift >= 0):
-            raise ValueError(f"place_drift is {place_drift!r}; expected 0 or more")
-        self.place_sigma_m = place_sigma_m
-        self.place_drift = place_drift
+    def __init__(self, listed: Callable[[Value], Mapping[Value, float]], otherwise: float) -> None:
+        self._listed = listed
+        self._otherwise = otherwise
 
     def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
         """Make an empty column for the slot of that name."""
-        return PlaceColumn(slot, scale, self.place_sigma_m, self.place_drift)
+        return CodedColumn(slot, scale._replace(different=self._otherwise), self._exceptions)
+
+    def _exceptions(
+        self, requested: Value, codes: Mapping[Value, int]
+    ) -> Iterator[tuple[int, float]]:
+        for value, similarity in self._listed(requested).items():
+            if value in codes:
+                yield codes[value], similarity

@@ -1,26 +1,31 @@
 """Saves and loads a topological memory: node-link JSON, or GraphML for other tools.
 
-The only module of memory that touches files. Numbers are rounded to 6 decimals, equal
-memories give equal bytes, and a file is renamed into place when it is complete.
+Numbers are rounded to 6 decimals, equal memories give equal bytes, and a file is renamed
+into place when it is complete.
 """
 
 from __future__ import annotations
 
-import contextlib
 import io
 import json
-import os
-import sys
 import warnings
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, fields
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import MISSING, fields
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 from xml.etree.ElementTree import ParseError
 
 import networkx as nx
 
 from ssrics_like.errors import MemoryFileError, choices
+from ssrics_like.memory.files import (
+    check_header,
+    damaged,
+    is_finite_number,
+    parsed_json,
+    read_whole,
+    write_whole,
+)
 from ssrics_like.memory.landmark import NOT_LABELS, Arc, Landmark
 from ssrics_like.memory.topological import TopologicalMemory
 
@@ -29,8 +34,12 @@ VERSION = 1
 DECIMALS = 6
 
 ARC_NUMBERS = tuple(f.name for f in fields(Arc) if f.name not in ("from_id", "to_id"))
-LANDMARK_NUMBERS = ("x_m", "y_m", "theta_rad", "t_s", "last_visit_s", "visits")
+LANDMARK_NUMBERS = tuple(f.name for f in fields(Landmark) if f.name not in ("id", "labels"))
 COUNTS = ("visits", "traversals")
+ARC_OPTIONAL, LANDMARK_OPTIONAL = (
+    frozenset(f.name for f in fields(kind) if f.default is not MISSING) for kind in (Arc, Landmark)
+)
+"""Fields that came later: a file without them has their default."""
 
 
 def save_topology(memory: TopologicalMemory, path: str | Path) -> None:
@@ -43,16 +52,7 @@ def save_topology(memory: TopologicalMemory, path: str | Path) -> None:
     """
     path = Path(path)
     write, _ = _codec(path)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
-    content = write(_to_graph(memory))
-    try:
-        temporary.write_bytes(content)
-        temporary.replace(path)
-    except OSError as error:
-        raise MemoryFileError(f"{path}: cannot be written: {error.strerror}") from error
-    finally:
-        with contextlib.suppress(OSError):  # gone already, unless writing was cut short
-            temporary.unlink()
+    write_whole(path, write(_to_graph(memory.nodes, memory.arcs)))
 
 
 def load_topology(path: str | Path) -> TopologicalMemory:
@@ -65,11 +65,31 @@ def load_topology(path: str | Path) -> TopologicalMemory:
     """
     path = Path(path)
     _, read = _codec(path)
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise MemoryFileError(f"{path}: cannot be read: {error.strerror}") from error
-    return _from_graph(read(path, content), path)
+    return TopologicalMemory.restored(*_from_graph(read(path, read_whole(path)), path))
+
+
+def node_link(landmarks: Iterable[Landmark], arcs: Iterable[Arc]) -> dict[str, Any]:
+    """Return landmarks and arcs as networkx's node-link data, as they stand in a JSON file."""
+    data: dict[str, Any] = nx.node_link_data(_to_graph(landmarks, arcs), edges="edges")
+    return data
+
+
+def from_node_link(path: Path, data: Any) -> tuple[tuple[Landmark, ...], tuple[Arc, ...]]:
+    """Return the landmarks and arcs that node-link data hold.
+
+    Parameters
+    ----------
+    path : Path
+        Where they were read, for messages.
+    data : Any
+        As JSON has them.
+
+    Raises
+    ------
+    MemoryFileError
+        If they are damaged, of another kind, or of a newer version.
+    """
+    return _from_graph(_linked(path, data), path)
 
 
 def _codec(path: Path) -> tuple[Callable[[Any], bytes], Callable[[Path, bytes], Any]]:
@@ -81,15 +101,15 @@ def _codec(path: Path) -> tuple[Callable[[Any], bytes], Callable[[Path, bytes], 
     return known[path.suffix]
 
 
-def _to_graph(memory: TopologicalMemory) -> Any:
+def _to_graph(landmarks: Iterable[Landmark], arcs: Iterable[Arc]) -> Any:
     graph: Any = nx.DiGraph(format=FORMAT, version=VERSION)
-    for landmark in memory.nodes:
+    for landmark in landmarks:
         numbers = {name: _rounded(getattr(landmark, name)) for name in LANDMARK_NUMBERS}
         labels = {name: _rounded(value) for name, value in landmark.labels.items()}
         graph.add_node(landmark.id, **numbers, **labels)
-    for arc in memory.arcs:
-        numbers = {name: _rounded(value) for name, value in asdict(arc).items()}
-        graph.add_edge(numbers.pop("from_id"), numbers.pop("to_id"), **numbers)
+    for arc in arcs:
+        numbers = {name: _rounded(getattr(arc, name)) for name in ARC_NUMBERS}
+        graph.add_edge(arc.from_id, arc.to_id, **numbers)
     return graph
 
 
@@ -104,14 +124,10 @@ def _to_json(graph: Any) -> bytes:
 
 
 def _from_json(path: Path, content: bytes) -> Any:
-    try:
-        data = json.loads(content)
-    except UnicodeDecodeError as error:
-        raise MemoryFileError(f"{path}: damaged: {error}") from error
-    except json.JSONDecodeError as error:
-        raise MemoryFileError(f"{path}:{error.lineno}: damaged: {error.msg}") from error
-    except RecursionError as error:
-        raise MemoryFileError(f"{path}: damaged: nested too deep") from error
+    return _linked(path, parsed_json(path, content))
+
+
+def _linked(path: Path, data: Any) -> Any:
     header = data.get("graph") if isinstance(data, dict) else None
     _check_header(path, header if isinstance(header, dict) else {})
     try:
@@ -119,8 +135,12 @@ def _from_json(path: Path, content: bytes) -> Any:
     except (LookupError, TypeError, ValueError, AttributeError, nx.NetworkXException) as error:
         raise MemoryFileError(f"{path}: damaged: {type(error).__name__} {error}") from error
     if len(graph) < len(data["nodes"]) or graph.number_of_edges() < len(data["edges"]):
-        _damaged(path, "a landmark or an arc stands in it twice")
+        damaged(path, "a landmark or an arc stands in it twice")
     return graph
+
+
+def _check_header(path: Path, header: Mapping[str, Any]) -> None:
+    check_header(path, header, "topological memory", FORMAT, VERSION)
 
 
 def _to_graphml(graph: Any) -> bytes:
@@ -150,61 +170,50 @@ def _from_graphml(path: Path, content: bytes) -> Any:
     return graph
 
 
-def _check_header(path: Path, header: Mapping[str, Any]) -> None:
-    if header.get("format") != FORMAT:
-        raise MemoryFileError(
-            f"{path}: no topological memory: its format is {header.get('format')!r}, "
-            f"expected '{FORMAT}'"
-        )
-    version = header.get("version")
-    if not isinstance(version, int) or version < 1:
-        _damaged(path, f"its version is {version!r}, expected {VERSION}")
-    if version > VERSION:
-        raise MemoryFileError(
-            f"{path}: written by a newer ssrics: its version is {version}, "
-            f"this one reads up to {VERSION}"
-        )
-
-
-def _from_graph(graph: Any, path: Path) -> TopologicalMemory:
+def _from_graph(graph: Any, path: Path) -> tuple[tuple[Landmark, ...], tuple[Arc, ...]]:
     if not graph.is_directed() or graph.is_multigraph():
-        _damaged(path, "its arcs have no direction, or stand in it twice")
-    landmarks = [_landmark(path, name, data) for name, data in graph.nodes(data=True)]
-    arcs = [_arc(path, *ends) for ends in graph.edges(data=True)]
-    return TopologicalMemory.restored(landmarks, arcs)
+        damaged(path, "its arcs have no direction, or stand in it twice")
+    landmarks = (_landmark(path, name, data) for name, data in graph.nodes(data=True))
+    arcs = (_arc(path, *ends) for ends in graph.edges(data=True))
+    return tuple(landmarks), tuple(arcs)
 
 
 def _landmark(path: Path, name: Any, data: Mapping[str, Any]) -> Landmark:
     if not isinstance(name, str):
-        _damaged(path, f"a landmark is called {name!r}, expected text")
-    numbers = _numbers(path, f"landmark '{name}'", data, LANDMARK_NUMBERS)
+        damaged(path, f"a landmark is called {name!r}, expected text")
+    where = f"landmark '{name}'"
+    numbers = _numbers(path, where, data, LANDMARK_NUMBERS, LANDMARK_OPTIONAL)
     labels = {key: value for key, value in data.items() if key not in NOT_LABELS}
     for key, value in labels.items():
-        if not isinstance(value, str) and not _is_finite_number(value):
-            _damaged(path, f"landmark '{name}': {key} is {value!r}, expected text or a number")
+        if not isinstance(value, str | bool) and not is_finite_number(value):
+            damaged(path, f"landmark '{name}': {key} is {value!r}, expected text or a number")
     return Landmark(id=name, **numbers, labels=labels)
 
 
 def _arc(path: Path, from_id: str, to_id: str, data: Mapping[str, Any]) -> Arc:
     where = f"arc from '{from_id}' to '{to_id}'"
-    return Arc(from_id=from_id, to_id=to_id, **_numbers(path, where, data, ARC_NUMBERS))
+    numbers = _numbers(path, where, data, ARC_NUMBERS, ARC_OPTIONAL)
+    return Arc(from_id=from_id, to_id=to_id, **numbers)
 
 
 def _numbers(
-    path: Path, where: str, data: Mapping[str, Any], names: tuple[str, ...]
+    path: Path,
+    where: str,
+    data: Mapping[str, Any],
+    names: tuple[str, ...],
+    optional: frozenset[str],
 ) -> dict[str, Any]:
+    numbers: dict[str, Any] = {}
     for name in names:
-        value = data.get(name)
-        if isinstance(value, bool) or not _is_finite_number(value):
-            _damaged(path, f"{where}: {name} is {value!r}, expected a finite number")
-        if name in COUNTS and (not isinstance(value, int) or value < 1):
-            _damaged(path, f"{where}: {name} is {value!r}, expected a count of 1 or more")
-    return {name: data[name] if name in COUNTS else float(data[name]) for name in names}
-
-
-def _is_finite_number(value: Any) -> bool:
-    return isinstance(value, int | float) and abs(value) <= sys.float_info.max
-
-
-def _damaged(path: Path, what: str) -> NoReturn:
-    raise MemoryFileError(f"{path}: damaged: {what}")
+        value: Any = data.get(name)
+        if value is None and name in optional and name not in data:
+            continue
+        if not is_finite_number(value):
+            damaged(path, f"{where}: {name} is {value!r}, expected a finite number")
+        if name not in COUNTS:
+            numbers[name] = float(value)
+        elif isinstance(value, int) and value >= 1:
+            numbers[name] = value
+        else:
+            damaged(path, f"{where}: {name} is {value!r}, expected a count of 1 or more")
+    return numbers

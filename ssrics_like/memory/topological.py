@@ -8,6 +8,7 @@ one another or with one map, and nothing here does.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
@@ -15,8 +16,18 @@ from typing import Any
 import networkx as nx
 
 from ssrics_like.errors import nearest
-from ssrics_like.memory.landmark import Arc, Label, Landmark, checked_labels, finite, length
+from ssrics_like.memory.landmark import (
+    Arc,
+    Label,
+    Landmark,
+    checked_labels,
+    finite,
+    length,
+    number_of,
+)
+from ssrics_like.memory.links import Link, Links
 from ssrics_like.memory.statistics import RunningDirection, RunningMean, wrapped
+from ssrics_like.poses import Pose
 
 
 class TopologicalMemory:
@@ -25,10 +36,16 @@ class TopologicalMemory:
     Consecutive landmarks are joined by :meth:`traverse`, whose measurements update the
     arc's running estimates. Two different ways between the same two landmarks share one
     arc, and show in its spread.
+
+    Attributes
+    ----------
+    links : Links
+        How landmarks lie from one another; `Whereabouts` learns them.
     """
 
     def __init__(self) -> None:
         self._graph: Any = nx.DiGraph()
+        self.links = Links()
 
     def __len__(self) -> int:
         return len(self._graph)
@@ -75,7 +92,24 @@ class TopologicalMemory:
             bearing.deviation,
             path.mean,
             path.deviation,
+            **self._geometry(from_id, to_id),
         )
+
+    def _geometry(self, from_id: str, to_id: str) -> dict[str, float]:
+        link = self.links.between(from_id, to_id)
+        if link is None:
+            return {}
+        return {
+            "x_m": link.pose.x_m,
+            "y_m": link.pose.y_m,
+            "theta_rad": link.pose.theta_rad,
+            "position_sd_m": math.sqrt(link.variance_m2),
+            "direction_sd_rad": math.sqrt(link.variance_rad2),
+        }
+
+    def next_id(self) -> str:
+        """Return the name of the next landmark: L and a number above every one there is."""
+        return f"L{max(map(number_of, self._graph), default=0) + 1}"
 
     def degree(self, landmark: str) -> int:
         """Count the other landmarks joined to this one by an arc either way."""
@@ -230,4 +264,9 @@ class TopologicalMemory:
                 bearing=RunningDirection.of(n, arc.bearing_rad, arc.bearing_sd_rad),
                 path=RunningMean.of(n, arc.path_m, arc.path_sd_m),
             )
+            ends = arc.from_id, arc.to_id
+            if arc.position_sd_m > 0.0 and memory.links.between(*ends) is None:
+                pose = Pose(arc.x_m, arc.y_m, arc.theta_rad)
+                variances = arc.position_sd_m**2, arc.direction_sd_rad**2
+                memory.links.relate(*ends, Link(pose, *variances))
         return memory

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ssrics_like.perception import gap_kernels as kernels
 from ssrics_like.perception.local_map import MEMORY_M
+from ssrics_like.perception.observation import Pose
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -54,8 +56,8 @@ doorway and its mirror image are the same; ``@+0.4`` is 0.4 m ahead of the gap."
 
 def gap_features(
     local: LocalMap, place: tuple[float, float, float], travelled_m: float
-) -> NDArray[np.float64]:
-    """Describe the gap at a place.
+) -> tuple[NDArray[np.float64], Pose]:
+    """Describe the gap at a place, and say where it is.
 
     Parameters
     ----------
@@ -70,7 +72,12 @@ def gap_features(
     -------
     ndarray, shape (features,), float64
         In the order of `FEATURES`.
+    Pose
+        Midway between what stands left and right, and the direction through that the robot takes;
+        frame of odometry.
     """
     measures = np.empty(len(FEATURES))
-    kernels.gap_features(local.evidence, local.seen_m, place, travelled_m - MEMORY_M, measures)
-    return measures
+    x_m, y_m, theta_rad = kernels.gap_features(
+        local.evidence, local.seen_m, place, travelled_m - MEMORY_M, measures
+    )
+    return measures, Pose(x_m, y_m, math.remainder(theta_rad, math.tau))

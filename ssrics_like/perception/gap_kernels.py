@@ -35,7 +35,7 @@ def gap_features(
     place: tuple[float, float, float],
     oldest_m: float,
     out: NDArray[np.float64],
-) -> None:
+) -> tuple[float, float, float]:
     """Describe the gap at a place.
 
     Parameters
@@ -48,6 +48,11 @@ def gap_features(
         What was seen before counts as unknown.
     out : ndarray, shape (features,)
         Filled in the order of `ssrics_like.perception.gap.FEATURES`.
+
+    Returns
+    -------
+    tuple of float
+        x and y of the gap's middle, and the direction through it that the robot takes.
     """
     left, right, towards = narrowest(evidence, seen_m, place, oldest_m)
     lx, ly = math.cos(towards), math.sin(towards)
@@ -60,6 +65,7 @@ def gap_features(
     at = _walls(evidence, seen_m, middle, (lx, ly), width, oldest_m, out, at)
     at = _floor(evidence, seen_m, middle, (lx, ly), oldest_m, out, at)
     around(evidence, seen_m, middle, (lx, ly), width, oldest_m, out, at)
+    return middle[0], middle[1], towards - math.pi / 2
 
 
 @compiled

@@ -115,6 +115,14 @@ class NoveltyWatch:
         tau = self._detector.update(ranges_m)
         return [] if tau is None else self._take_interval(tau)
 
+    @property
+    def longest(self) -> int:
+        """How many scans or places back, at most, the anchor of a moment that stands out lies.
+
+        Patience ends after so many as an interval has, and its anchor may be its oldest.
+        """
+        return 2 * (self._held.maxlen or 0)
+
     def flush(self) -> list[Moment]:
         """End the novel stretch, as at the end of a log; return a moment kept back so far."""
         self._novel = False

@@ -2,33 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ssrics_like.poses import Pose
 
-@dataclass(frozen=True, slots=True)
-class Pose:
-    """A position and heading; the frame is stated by whoever hands it out.
-
-    Attributes
-    ----------
-    x_m, y_m : float
-        Metres.
-    theta_rad : float
-        Radians, counter-clockwise, 0 along the x axis.
-    """
-
-    x_m: float
-    y_m: float
-    theta_rad: float
-
-    def distance_m(self, other: Pose) -> float:
-        """Return how far another pose lies from this one; not finite where one of them is not."""
-        return math.hypot(float(other.x_m) - float(self.x_m), float(other.y_m) - float(self.y_m))
+__all__ = ["LaserScan", "Observation", "Pose"]
 
 
 @dataclass(frozen=True)

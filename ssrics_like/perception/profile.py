@@ -16,6 +16,7 @@ from ssrics_like.perception.sectors import SectorRule
 
 Anchor = Literal["newest", "middle", "oldest"]
 Along = Literal["scans", "metres"]
+EgomotionOf = Literal["odometry", "laser"]
 Fraction = Annotated[float, Field(gt=0.0, lt=1.0)]
 
 
@@ -36,8 +37,14 @@ class PerceptionProfile(BaseModel):
     along : {"scans", "metres"}
         What intervals count: scans as they come; or places, 0.1 m of path apart, whose scans are
         compensated for turns.
+    egomotion : {"odometry", "laser"}
+        How the robot knows its way: from its wheels alone, or corrected by matching scans. Poses
+        that do not drift are never corrected.
     doorways : str
-        The learned cue that tells doorways; empty to perceive no structure. Needs `along` metres.
+        The learned cue that tells doorways; empty to perceive none. Needs `along` metres.
+    structure : str
+        The learned cue that tells openings, junctions, corners, corridors and rooms; empty to tell
+        corridors from rooms by their width, and that only beside `doorways`. Needs `along` metres.
     interval : int
         Scans that are correlated with each other (the report's beta).
     gradient : float
@@ -66,7 +73,9 @@ class PerceptionProfile(BaseModel):
     range_cap_m: Annotated[float, Field(gt=0.0, le=10_000.0)] = 8.0
     repair_window: Annotated[int, Field(ge=0, le=1001)] = 5
     along: Along = "scans"
+    egomotion: EgomotionOf = "odometry"
     doorways: str = ""
+    structure: str = ""
     interval: Annotated[int, Field(ge=2, le=10_000)] = 20
     gradient: Fraction = 0.9
     threshold: Fraction = REPORT_THRESHOLD
@@ -85,7 +94,8 @@ class PerceptionProfile(BaseModel):
         return beams
 
     @model_validator(mode="after")
-    def _doorways_lie_along_the_way(self) -> Self:
-        if self.doorways and self.along != "metres":
-            raise ValueError("doorways: the cue looks at places along the way; set along: metres")
+    def _cues_look_along_the_way(self) -> Self:
+        for key in ("doorways", "structure"):
+            if getattr(self, key) and self.along != "metres":
+                raise ValueError(f"{key}: the cue looks at places along the way; set along: metres")
         return self

@@ -23,10 +23,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ssrics_like.perception.doorways import DoorwayCue
+    from ssrics_like.perception.egomotion import Egomotion
     from ssrics_like.perception.observation import LaserScan, Observation, Pose
     from ssrics_like.perception.profile import PerceptionProfile
     from ssrics_like.perception.sectors import Sector
     from ssrics_like.perception.sights import Sights
+    from ssrics_like.perception.structure import StructureCue
 
 __all__ = ["IntervalExample", "PerceptionBuffer", "Reflex"]
 
@@ -57,8 +59,17 @@ class Reflex:
     sector : {"left", "front", "right"}
         Where the anchor's scan reaches farthest.
     structure : str
-        What the place looks like: doorway, corridor or room; "unknown" where the
-        profile names no cue.
+        What the place looks like: doorway, opening, junction, corner, corridor or room; "unknown"
+        where the profile names no cue.
+    place : Pose
+        Where it is by path integration, in a frame that begins as that of `pose`: the middle of a
+        doorway and the direction through, else where the laser was.
+    directed : bool
+        Whether the direction of `place` is the doorway's own, and not only the robot's heading.
+    turned_rad : float
+        Sum of all turns, whichever way, from the first observation to the anchor.
+    carried : int
+        How often the robot found itself suddenly elsewhere by then.
     view : ndarray, shape (view_beams,), float32
         The anchor's view descriptor; see `describe_view`.
     """
@@ -74,6 +85,10 @@ class Reflex:
     novelty: float
     sector: Sector
     structure: str
+    place: Pose
+    directed: bool
+    turned_rad: float
+    carried: int
     view: NDArray[np.float32]
 
 
@@ -90,6 +105,8 @@ class PerceptionBuffer:
         The settings.
     doorways : DoorwayCue, optional
         What was learned of doorways. A profile that names a cue needs it.
+    structure : StructureCue, optional
+        What was learned of other structure. A profile that names a cue needs it.
 
     Attributes
     ----------
@@ -109,12 +126,19 @@ class PerceptionBuffer:
         The profile names a cue and none is given, or the other way round.
     """
 
-    def __init__(self, profile: PerceptionProfile, doorways: DoorwayCue | None = None) -> None:
-        if bool(profile.doorways) != (doorways is not None):
-            raise ValueError(
-                f"the profile's doorways are '{profile.doorways}'; expected "
-                f"{'that cue' if profile.doorways else 'no cue'} (see read_cue)"
-            )
+    def __init__(
+        self,
+        profile: PerceptionProfile,
+        doorways: DoorwayCue | None = None,
+        structure: StructureCue | None = None,
+    ) -> None:
+        for key, cue in (("doorways", doorways), ("structure", structure)):
+            named = getattr(profile, key)
+            if bool(named) != (cue is not None):
+                raise ValueError(
+                    f"the profile's {key}: '{named}'; expected "
+                    f"{'that cue' if named else 'no cue'} (see `ssrics_like.cues`)"
+                )
         self.profile = profile
         self.restarts = 0
         self._events = 0
@@ -124,11 +148,16 @@ class PerceptionBuffer:
             # Compiled code is loaded only where it is needed.
             from ssrics_like.perception.sights import Sights  # noqa: PLC0415
 
-            self._sights = Sights(self._watch, doorways)
+            self._sights = Sights(self._watch, doorways, structure)
+        self._egomotion: Egomotion | None = None
+        if profile.egomotion == "laser":
+            from ssrics_like.perception.egomotion import Egomotion  # noqa: PLC0415 - as above
+
+            self._egomotion = Egomotion()
         self._laser: LaserScan | None = None
         self._sectors: SectorClassifier | None = None
         self._newest: Observation | None = None
-        self._travelled_m = 0.0
+        self._travelled_m = self._turned_rad = 0.0
 
     @property
     def tau(self) -> float | None:
@@ -169,10 +198,20 @@ class PerceptionBuffer:
             observation.scan.ranges_m, profile.range_cap_m, profile.repair_window
         ).ranges_m
         if self._newest is not None:
-            step_m = self._newest.pose.distance_m(observation.pose)
+            before = self._newest.pose
+            step_m = before.distance_m(observation.pose)
             self._travelled_m += step_m if math.isfinite(step_m) else 0.0
+            turn_rad = observation.pose.theta_rad - before.theta_rad
+            if math.isfinite(turn_rad):
+                self._turned_rad += abs(math.remainder(turn_rad, math.tau))
         self._newest = observation
-        sensed = Sensed(observation, ranges_m, self._travelled_m)
+        here = observation.pose
+        if self._egomotion is not None:
+            here = self._egomotion.update(
+                here, observation.scan.bearings_rad, observation.scan.ranges_m
+            )
+        carried = 0 if self._egomotion is None else self._egomotion.carried
+        sensed = Sensed(observation, ranges_m, self._travelled_m, here, self._turned_rad, carried)
         found = (
             self._watch.update(sensed, ranges_m)
             if self._sights is None
@@ -213,7 +252,8 @@ class PerceptionBuffer:
         return fired
 
     def _fire(self, moment: Moment) -> Reflex:
-        observation, ranges_m, travelled_m, structure = moment.anchor
+        anchor = moment.anchor
+        observation, gap = anchor.observation, anchor.gap
         assert self._sectors is not None  # both are set by the first observation
         assert self._newest is not None
         reflex = Reflex(
@@ -223,12 +263,18 @@ class PerceptionBuffer:
             pose=observation.pose,
             true_pose=observation.true_pose,
             perceived_s=self._newest.t_s,
-            travelled_m=travelled_m,
+            travelled_m=anchor.travelled_m,
             modality="laser",
             novelty=moment.novelty,
-            sector=self._sectors.classify(ranges_m),
-            structure=structure,
-            view=describe_view(ranges_m, self.profile.view_beams),
+            sector=self._sectors.classify(anchor.ranges_m),
+            structure=anchor.structure,
+            place=(
+                anchor.here if gap is None else anchor.here.onward(gap.seen_from(observation.pose))
+            ),
+            directed=gap is not None,
+            turned_rad=anchor.turned_rad,
+            carried=anchor.carried,
+            view=describe_view(anchor.ranges_m, self.profile.view_beams),
         )
         self._events += 1
         return reflex

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ssrics_like.perception.observation import Observation
+    from ssrics_like.perception.observation import Observation, Pose
 
 UNKNOWN = "unknown"
 
@@ -24,11 +24,23 @@ class Sensed(NamedTuple):
         Its conditioned readings.
     travelled_m : float
         Length of the path from the first observation to it, metres.
+    here : Pose
+        Where the laser is by path integration: as odometry has it, or corrected by `Egomotion`.
+    turned_rad : float
+        Sum of all turns from the first observation to it.
+    carried : int
+        How often the robot was suddenly elsewhere by then.
     structure : str
         What the place looks like: "unknown" where structure is not perceived.
+    gap : Pose or None
+        In a doorway its middle, and the direction through that the robot takes; frame of odometry.
     """
 
     observation: Observation
     ranges_m: NDArray[np.float64]
     travelled_m: float
+    here: Pose
+    turned_rad: float
+    carried: int
     structure: str = UNKNOWN
+    gap: Pose | None = None

@@ -7,18 +7,29 @@ scan rate nor turning on the spot matters, and a robot that stands still perceiv
 from __future__ import annotations
 
 import math
+from collections import deque
 from typing import TYPE_CHECKING
 
 from ssrics_like.perception.doorways import APART_M, DoorwayWatch, SeenDoorway
+from ssrics_like.perception.gap import FEATURES
 from ssrics_like.perception.novelty_watch import Moment
 from ssrics_like.perception.panorama import panorama
-from ssrics_like.perception.structure import corridor_or_room
+from ssrics_like.perception.structure import StructureWatch, corridor_or_room
 from ssrics_like.perception.surroundings import Described, Surroundings
+from ssrics_like.perception.walk import STEP_M
 
 if TYPE_CHECKING:
     from ssrics_like.perception.doorways import DoorwayCue
     from ssrics_like.perception.novelty_watch import NoveltyWatch
+    from ssrics_like.perception.observation import Pose
     from ssrics_like.perception.sensed import Sensed
+    from ssrics_like.perception.structure import StructureCue
+
+NECK_M = 0.4
+"""A doorway is where the gap is narrowest, at most so far from where it looks most like one."""
+ASIDE_M = 0.5
+"""The robot went through: the middle of the doorway cannot lie farther from its way."""
+WIDTH = FEATURES.index("width_m")
 
 
 class Sights:
@@ -29,14 +40,21 @@ class Sights:
     watch : NoveltyWatch
         Its intervals count places, 0.1 m apart.
     cue : DoorwayCue, optional
-        What was learned of doorways; without it no structure is perceived.
+        What was learned of doorways; without it none is perceived.
+    structure : StructureCue, optional
+        What was learned of other structure; without it corridors are told from rooms by their
+        width if doorways are perceived, and else no structure is perceived.
     """
 
-    def __init__(self, watch: NoveltyWatch, cue: DoorwayCue | None) -> None:
+    def __init__(
+        self, watch: NoveltyWatch, cue: DoorwayCue | None, structure: StructureCue | None = None
+    ) -> None:
         self._watch = watch
-        self._surroundings: Surroundings[Sensed] = Surroundings()
+        self._surroundings: Surroundings[Sensed] = Surroundings(wide=structure is not None)
+        self._structure = None if structure is None else StructureWatch(structure, watch.longest)
         self._doorways: DoorwayWatch[Sensed] | None = None if cue is None else DoorwayWatch(cue)
         self._doorway_m = -math.inf
+        self._recent: deque[Described[Sensed]] = deque(maxlen=round(2.0 * NECK_M / STEP_M))
 
     def update(self, sensed: Sensed) -> list[Moment]:
         """Take what was sensed; return the moments that stand out, mostly none.
@@ -49,8 +67,11 @@ class Sights:
         for described in self._surroundings.update(
             observation.pose, observation.scan.bearings_rad, sensed.ranges_m, sensed
         ):
+            self._recent.append(described)
             here = described.place.nearest
-            if self._doorways is not None:
+            if self._structure is not None:
+                self._structure.update(here.travelled_m, described.layout)
+            elif self._doorways is not None:
                 here = here._replace(structure=corridor_or_room(described.measures))
             scan = here.observation.scan
             novel += self._watch.update(
@@ -59,24 +80,47 @@ class Sights:
             )
             if self._doorways is not None:
                 doorways += [self._moment(seen) for seen in self._doorways.update(described)]
-        return doorways or [moment for moment in novel if not self._at_a_doorway(moment)]
+        return doorways or self._elsewhere(novel)
 
     def flush(self) -> list[Moment]:
         """Return the moments kept back so far, as at the end of a log."""
         novel = self._watch.flush()
         doorways = [] if self._doorways is None else self._doorways.flush()
         found = [self._moment(seen) for seen in doorways]
-        found += [moment for moment in novel if not self._at_a_doorway(moment)]
+        found += self._elsewhere(novel)
         return sorted(found, key=lambda moment: moment.anchor.travelled_m)
 
-    def _at_a_doorway(self, moment: Moment) -> bool:
-        return abs(moment.anchor.travelled_m - self._doorway_m) < APART_M
+    def _elsewhere(self, novel: list[Moment]) -> list[Moment]:
+        """Return the moments that belong to no doorway, with the words for their places."""
+        away = [
+            moment
+            for moment in novel
+            if abs(moment.anchor.travelled_m - self._doorway_m) >= APART_M
+        ]
+        if self._structure is None:
+            return away
+        words = [self._structure.word_at(moment.anchor.travelled_m) for moment in away]
+        return [
+            moment._replace(anchor=moment.anchor._replace(structure=word))
+            for moment, word in zip(away, words, strict=True)
+        ]
 
     def _moment(self, seen: SeenDoorway[Sensed]) -> Moment:
         described: Described[Sensed] = seen.place
         self._doorway_m = described.place.nearest.travelled_m
         novelty = self._watch.novelty_at(described.place.at_m)
         return Moment(
-            described.place.nearest._replace(structure="doorway"),
+            described.place.nearest._replace(structure="doorway", gap=self._neck(described)),
             0.0 if novelty is None else novelty,
         )
+
+    def _neck(self, seen: Described[Sensed]) -> Pose | None:
+        """Return where the doorway is that was seen; None where no gap lies on the way."""
+        near = (
+            described
+            for described in self._recent
+            if abs(described.place.at_m - seen.place.at_m) <= NECK_M
+        )
+        neck = min(near, key=lambda described: float(described.measures[WIDTH]), default=seen)
+        aside_m = math.hypot(neck.gap.x_m - neck.place.x_m, neck.gap.y_m - neck.place.y_m)
+        return neck.gap if aside_m <= ASIDE_M else None

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Generic, TypeVar
 
+import numpy as np
+
 from ssrics_like.perception.gap import gap_features
+from ssrics_like.perception.layout import layout_measures
 from ssrics_like.perception.local_map import LocalMap
 from ssrics_like.perception.walk import STEP_M, Walk
+from ssrics_like.perception.wide_map import WideMap
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from ssrics_like.perception.observation import Pose
@@ -35,20 +38,32 @@ class Described(Generic[T]):
         The place.
     measures : ndarray, shape (features,), float64
         In the order of `ssrics_like.perception.gap.FEATURES`.
+    gap : Pose
+        The middle of the gap that it lies in, and the direction through; frame of odometry.
+    layout : ndarray, shape (measures,), float64
+        In the order of `ssrics_like.perception.layout.LAYOUT`; empty unless surroundings are wide.
     """
 
     place: Place[T]
     measures: NDArray[np.float64]
+    gap: Pose
+    layout: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
 
 
 class Surroundings(Generic[T]):
     """Keeps the local map and describes a place every 0.1 m of path.
 
     Neither speed nor scan rate matters, only the way; a robot that stands describes nothing.
+
+    Parameters
+    ----------
+    wide : bool
+        Whether a wide map is kept too, and the layout of places measured.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, wide: bool = False) -> None:
         self._map = LocalMap()
+        self._wide = WideMap() if wide else None
         self._walk: Walk[T] = Walk(STEP_M, LAG_M)
         self._mapped: tuple[float, float] | None = None
 
@@ -77,6 +92,7 @@ class Surroundings(Generic[T]):
         """
         if not self._walk.advance(pose, sensed):
             self._map = LocalMap()
+            self._wide = None if self._wide is None else WideMap()
         here_m = self._walk.travelled_m
         if (
             self._mapped is None
@@ -84,11 +100,15 @@ class Surroundings(Generic[T]):
             or abs(math.remainder(pose.theta_rad - self._mapped[1], math.tau)) > TURNED_RAD
         ):
             self._map.take(pose, bearings_rad, ranges_m, here_m)
+            if self._wide is not None:
+                self._wide.take(pose, bearings_rad, ranges_m, here_m)
             self._mapped = (here_m, pose.theta_rad)
-        return [
-            Described(
-                place,
-                gap_features(self._map, (place.x_m, place.y_m, place.heading_rad), here_m),
-            )
-            for place in self._walk.places()
-        ]
+        return [self._described(place) for place in self._walk.places()]
+
+    def _described(self, place: Place[T]) -> Described[T]:
+        here_m = self._walk.travelled_m
+        at = (place.x_m, place.y_m, place.heading_rad)
+        measures, gap = gap_features(self._map, at, here_m)
+        if self._wide is None:
+            return Described(place, measures, gap)
+        return Described(place, measures, gap, layout_measures(self._wide, at, here_m))

@@ -164,6 +164,17 @@ class RetrievalBuffer(_ModuleBuffer):
         super().__init__(types, harvest)
         self._module = module
         self._sources = sources
+        self._confidence: float | None = None
+
+    def test(self, state: str, inquiry: str) -> bool:
+        """Answer ``?retrieval> confidence_above x`` too; before any answer it is no."""
+        if state in ("confidence_above", "confidence_below"):
+            if self._confidence is None or self.state == "busy":
+                return False
+            limit = float(inquiry)
+            above = self._confidence > limit
+            return above if state == "confidence_above" else not above
+        return super().test(state, inquiry)
 
     def retrieve(
         self,
@@ -184,6 +195,7 @@ class RetrievalBuffer(_ModuleBuffer):
             tests += [SlotTest(slot, str(word), negated=True) for word in bound.negvalues]
         asked = self.types.name_of(otherchunk)
         result = self._module.recall(asked, tests, time, self._sources())
+        self._confidence = result.confidence
         if result.chunk is None:
             return None, result.latency_s
         self._name = result.chunk.name

@@ -41,10 +41,21 @@ class SlotTest:
 
 @dataclass(frozen=True)
 class Recall:
-    """What a retrieval gave: the chunk (or None) and how long it takes, in seconds."""
+    """What a retrieval gave.
+
+    Attributes
+    ----------
+    chunk : BufferChunk or None
+        None for a failure.
+    latency_s : float
+        How long it takes.
+    confidence : float
+        How probable it is that this outcome is right, a failure included.
+    """
 
     chunk: BufferChunk | None
     latency_s: float
+    confidence: float = 1.0
 
 
 class DeclarativeModule(Protocol):

@@ -113,7 +113,7 @@ def _of_a_clause(book: Rulebook, clause: Clause) -> Iterator[Problem]:
     if clause.sign == "?":
         for pair in clause.pairs:
             yield from _of_a_query(pair, kind.numeric_queries)
-            if pair.slot in kind.numeric_queries and "novelty" not in book.chunk_types.get(
+            if pair.slot.startswith("novelty") and "novelty" not in book.chunk_types.get(
                 "reflex", ()
             ):
                 yield pair.line, f"query '{pair.slot}': chunk type 'reflex' has no slot 'novelty'"

@@ -18,7 +18,8 @@ class BufferKind:
     modifies : bool
         Whether ``=buffer>`` is allowed on the right side.
     numeric_queries : tuple of str
-        Queries that compare a number: the value in the buffer's chunk against the one given.
+        Queries that compare a number: the value in the buffer's chunk, or of what the buffer was
+        last asked, against the one given.
     """
 
     role: str
@@ -34,7 +35,10 @@ BUFFERS = {
         requests=False,
         numeric_queries=("novelty_above", "novelty_below"),
     ),
-    "retrieval": BufferKind("the landmark that declarative memory recalls"),
+    "retrieval": BufferKind(
+        "the landmark that declarative memory recalls",
+        numeric_queries=("confidence_above", "confidence_below"),
+    ),
     "imaginal": BufferKind("a chunk under construction, 0.2 s", modifies=True),
     "landmark": BufferKind("decisions: marks a place, and holds the chunk of a new landmark"),
 }

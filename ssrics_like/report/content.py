@@ -81,7 +81,11 @@ def cards(run: Run) -> list[dict[str, str]]:
     found.append(("landmarks", _grouped(len(run.landmarks)), "in the graph"))
     rate = run.marks_per_100_m
     found.append(
-        ("marks per 100 m", "–" if math.isnan(rate) else f"{rate:.1f}", "declared or recognised")
+        (
+            "marks per 100 m",
+            "–" if math.isnan(rate) else f"{rate:.1f}",
+            "declared, recognised or unsure",
+        )
     )
     return [{"name": name, "value": value, "note": note} for name, value, note in found]
 

@@ -77,11 +77,11 @@ def draw_graph(results: Results) -> Drawing | None:
     room.take(60, 10, 60, 14)  # the scale bar
     ways = ways_of(results.arcs)
     places = {mark.name: (mark.drawn_x_m, mark.drawn_y_m) for mark in run.landmarks}
-    _draw_ways(axes, ways, places)
+    draw_ways(axes, ways, places)
     for way in ways:
         room.cross(np.array([frame.points(*places[end]) for end in way.ends]))
     tips = draw_landmarks(axes, run.landmarks, frame, room)
-    _draw_distances(axes, ways, places, frame, room)
+    draw_distances(axes, ways, places, frame, room)
     axes.set_xlabel(f"metres, {frame_text(results)}", loc="right", fontsize=style.SMALL_PT)
     most = ways[0].traversals if ways else 0
     thickness = (
@@ -101,7 +101,8 @@ def draw_graph(results: Results) -> Drawing | None:
     )
 
 
-def _draw_ways(axes: Axes, ways: list[Way], places: dict[str, tuple[float, float]]) -> None:
+def draw_ways(axes: Axes, ways: list[Way], places: dict[str, tuple[float, float]]) -> None:
+    """Draw ways as lines between places, the thicker the more often they were gone."""
     from matplotlib.collections import LineCollection
 
     if not ways:
@@ -117,7 +118,7 @@ def _draw_ways(axes: Axes, ways: list[Way], places: dict[str, tuple[float, float
     )  # fmt: skip
 
 
-def _draw_distances(
+def draw_distances(
     axes: Axes,
     ways: list[Way],
     places: dict[str, tuple[float, float]],

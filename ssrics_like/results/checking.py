@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ssrics_like.errors import ResultsError
+from ssrics_like.memory import load_memory_file
 from ssrics_like.memory.store import load_topology
 from ssrics_like.results import tables
 from ssrics_like.results.manifest import read_manifest
@@ -46,6 +47,10 @@ def check_results(path: Path) -> dict[str, Any]:
         for ending in ("json", "graphml"):
             if len(load_topology(path / "topology" / f"{name}.{ending}")) != count:
                 raise ResultsError(f"{path}: topology/{name}.{ending} has not {count} landmarks")
+        chunks = runs[run].get("chunks")  # results of an earlier version have no such file
+        memory = path / "memory" / f"{name}.json"
+        if chunks is not None and len(load_memory_file(memory).chunks) != chunks:
+            raise ResultsError(f"{memory}: has not {chunks} chunks")
         files = [path / "figures" / f"{name}.json"]
         if manifest["scenario"].get("trace", True):
             files.append(path / "trace" / f"{name}.jsonl")

@@ -32,6 +32,7 @@ OURS = (
     "landmarks.csv",
     "path.csv",
     "topology",
+    "memory",
     "trace",
     "figures",
     "map",

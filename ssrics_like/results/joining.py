@@ -32,7 +32,7 @@ def join_runs(path: Path, folders: list[Path], description: dict[str, Any]) -> d
     entries = [entry_of(folder) for folder in folders]
     for name, skip in JOINED.items():
         _join(path / name, csv_line(HEADERS[name]), folders, skip=skip)
-    for name in ("topology", "trace", "figures"):
+    for name in ("topology", "memory", "trace", "figures"):
         (path / name).mkdir(exist_ok=True)
         for old in (path / name).iterdir():
             if _RUN_FILE.fullmatch(old.name):

@@ -11,7 +11,7 @@ from typing import Any, Self, TextIO
 import numpy as np
 
 from ssrics_like.decision import Decision
-from ssrics_like.memory import Retrieval
+from ssrics_like.memory import Retrieval, save_memory_file
 from ssrics_like.memory.store import save_topology
 from ssrics_like.model import CognitiveModel
 from ssrics_like.perception.histogram import correlation_histogram
@@ -140,14 +140,23 @@ class Recorder:
         event |= {key: value for key, value in more.items() if value is not None}
         self._files["trace.jsonl"].write(json_text(event, indent=None))
 
-    def finish(self, model: CognitiveModel) -> dict[str, Any]:
-        """Write what is known only at the end; return the run's entry for the manifest."""
+    def finish(self, model: CognitiveModel, run_id: str) -> dict[str, Any]:
+        """Write what is known only at the end; return the run's entry for the manifest.
+
+        Parameters
+        ----------
+        model : CognitiveModel
+            As the run has left it.
+        run_id : str
+            Names the run among all runs; see `CognitiveModel.saved_memory`.
+        """
         for file in self._files.values():
             file.flush()
         rows = tables.landmark_rows(self.run, model)
         write_atomically(self.folder / "landmarks.csv", csv_text(tables.LANDMARKS, rows))
         for ending in ("json", "graphml"):
             save_topology(model.topological, self.folder / f"topology.{ending}")
+        save_memory_file(model.saved_memory(run_id), self.folder / "memory.json")
         write_atomically(
             self.folder / "figures.json", json_text(self._figure_data(model), indent=None)
         )
@@ -168,6 +177,7 @@ class Recorder:
             "decisions": dict(sorted(self.decided.items())),
             "undecided": model.decisions_pending,
             "landmarks": len(model.topological),
+            "chunks": len(model.declarative),
             "firings": model.engine.firings,
         }
 

@@ -15,8 +15,8 @@ DECISIONS = ("declared", "recognised", "unsure", "dismissed", "overwritten")
 """Every decision, in the order in which figures and tables show them."""
 
 TIME_STEP_S = 1e-6
-MARKS = ("declared", "recognised")
-"""The decisions that call a place a landmark."""
+MARKS = ("declared", "recognised", "unsure")
+"""The decisions that call a place a landmark; `unsure` leaves open which."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,7 @@ JOINED = {"decisions.csv": 0, "path.csv": 0, "landmarks.csv": 1}
 KEPT = {
     "topology.json": "topology/{run}.json",
     "topology.graphml": "topology/{run}.graphml",
+    "memory.json": "memory/{run}.json",
     "trace.jsonl": "trace/{run}.jsonl",  # a scenario may do without
     "figures.json": "figures/{run}.json",
 }

@@ -9,14 +9,18 @@ from typing import Any
 from pydantic import BaseModel
 
 from ssrics_like import settings
-from ssrics_like.cues import read_cue
+from ssrics_like.cues import read_any_cue
 from ssrics_like.errors import SettingsError, choices, nearest
 from ssrics_like.library import SUFFIXES
 from ssrics_like.maps import load_building, load_plan
 from ssrics_like.maps.map_file import MapFile
 from ssrics_like.maps.plan_file import PlanFile
+from ssrics_like.memory import load_memory_file
 from ssrics_like.memory.profile import MemoryProfile
+from ssrics_like.memory.saved_file import FORMAT as MEMORY
+from ssrics_like.perception.doorways import DoorwayCue
 from ssrics_like.perception.profile import PerceptionProfile
+from ssrics_like.perception.structure import KINDS as KINDS_OF_STRUCTURE
 from ssrics_like.productions.rulebook import RuleFile, load_rulebook
 from ssrics_like.results.checking import check_results
 from ssrics_like.results.counts import counted
@@ -44,6 +48,8 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
     ------
     SettingsError, RuleError, LibraryError, CueError, MapError, SourceError, ResultsError
         What is wrong with it.
+    MemoryFileError
+        What is wrong with a saved memory.
     """
     if has_variants(path):
         return _variants(path, progress)
@@ -52,11 +58,27 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
         far = unfinished(manifest) or counted(len(manifest["runs"]), "run")
         return f"results, {far}; frame {manifest['frame']}"
     if path.suffix == ".json":
-        return f"doorway cue, threshold {read_cue(path).threshold:g}"
+        return _json(path)
     if path.suffix in SUFFIXES:
         kind = _kind(path)
         return f"{kind}, {YAML_KINDS[kind](path)}"
     return _log(path, progress)
+
+
+def _json(path: Path) -> str:
+    """Check a saved memory, if the file begins as one, or a cue."""
+    if path.is_file():
+        with path.open("rb") as file:
+            if MEMORY.encode() in file.read(HEAD_BYTES):
+                memory = load_memory_file(path)
+                landmarks = counted(len(memory.landmarks), "landmark")
+                return f"memory, {landmarks}, {counted(len(memory.runs), 'run')}"
+    cue = read_any_cue(path)
+    if isinstance(cue, DoorwayCue):
+        return f"doorway cue, threshold {cue.threshold:g}"
+    return "structure cue, thresholds " + ", ".join(
+        f"{cue.thresholds[kind]:g} for {kind}" for kind in KINDS_OF_STRUCTURE
+    )
 
 
 def _variants(path: Path, progress: Callable[[float], None]) -> str:
@@ -199,5 +221,6 @@ YAML_KINDS: dict[str, Callable[[Path], str]] = {
     "map": _map,
     "plan": _plan,
 }
-KINDS = (*YAML_KINDS, "doorway cue", "log", "results folder")
+KINDS = (*YAML_KINDS, "doorway cue", "structure cue", "memory", "log", "results folder")
 PROGRESS_EVERY = 256  # scans
+HEAD_BYTES = 256

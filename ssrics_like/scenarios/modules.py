@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ssrics_like import library, settings
-from ssrics_like.cues import read_cue
+from ssrics_like.cues import read_cue, read_structure_cue
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.productions.rulebook import load_rulebook
@@ -23,10 +23,13 @@ def load_perception(name: str | Path) -> PerceptionProfile:
     """
     path = library.find("perception", name)
     profile = settings.validated(PerceptionProfile, settings.read_document(path))
-    if profile.doorways.endswith(".json"):  # a path in a file starts at that file
-        profile = profile.model_copy(update={"doorways": str(path.parent / profile.doorways)})
-    if profile.doorways:
-        read_cue(library.find_cue(profile.doorways))
+    for key, read in (("doorways", read_cue), ("structure", read_structure_cue)):
+        cue: str = getattr(profile, key)
+        if cue.endswith(".json"):  # a path in a file starts at that file
+            cue = str(path.parent / cue)
+            profile = profile.model_copy(update={key: cue})
+        if cue:
+            read(library.find_cue(cue))
     return profile
 
 

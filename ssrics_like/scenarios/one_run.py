@@ -32,10 +32,13 @@ class Part:
         The scenario, or a variant of it.
     folder : Path
         Where its run is written; empty.
+    run_id : str
+        Names the run among all runs; see `run_id`.
     """
 
     resolved: Resolved
     folder: Path
+    run_id: str
 
 
 @dataclass(frozen=True)
@@ -98,6 +101,8 @@ def _through(
 ) -> dict[str, Any]:
     """Let a model observe, and write what it does."""
     resolved = part.resolved
+    recollection = resolved.recollection
+    remembered = None if recollection is None else recollection.by_run[run]
     seed = int(np.random.SeedSequence([resolved.scenario.seed, run]).generate_state(1)[0])
     rest = iter(observations)
     first = next(rest)  # a source without any scan has raised already
@@ -117,12 +122,15 @@ def _through(
             frame=feed.frame,
             trace=recorder.traced,
             retrieved=recorder.retrieved,
+            remembered=None if remembered is None else remembered.memory,
         )
         for observation in itertools.chain([first], rest):
             recorder.decided_all(model.observe(observation))
             recorder.observed(observation, model.perception.novelty)
         recorder.decided_all(model.finish())
-        entry = {**recorder.finish(model), **feed.entry(), "seed": seed}
+        entry = {**recorder.finish(model, part.run_id), **feed.entry(), "seed": seed}
+    if remembered is not None:
+        entry["memory_from"] = remembered.as_data()
     return {**entry, "warnings": [*feed.warnings(), *_warnings(resolved, entry)]}
 
 

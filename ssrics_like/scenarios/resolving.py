@@ -23,6 +23,7 @@ from ssrics_like.scenarios.modules import (
 )
 from ssrics_like.scenarios.place import Place, place_of
 from ssrics_like.scenarios.problems import Problems
+from ssrics_like.scenarios.remembering import Recollection, recollect
 from ssrics_like.scenarios.schema import MODULES, Scenario, at, read_scenario
 from ssrics_like.scenarios.world_settings import Strict
 
@@ -41,6 +42,8 @@ class Resolved:
         or the building and robot.
     perception, productions, memory
         The modules of the mind.
+    recollection : Recollection or None
+        What they remember from the beginning.
     """
 
     scenario: Scenario
@@ -49,6 +52,13 @@ class Resolved:
     perception: PerceptionProfile
     productions: Rulebook
     memory: MemoryProfile
+    recollection: Recollection | None = None
+
+    def of_run(self, run: int) -> Resolved:
+        """Return what one run needs of it: memories of others are large, and travel far."""
+        if self.recollection is None:
+            return self
+        return replace(self, recollection=self.recollection.of_run(run))
 
     @property
     def source_name(self) -> str:
@@ -63,6 +73,8 @@ class Resolved:
             data["source"] = {**scenario.source.model_dump(), "log": self.log.name}
         if self.place is not None:
             data["world"] = self.place.as_data()
+        if self.recollection is not None:
+            data["memory_from"] = self.recollection.as_data()
         return {
             **data,
             "perception": {"name": scenario.perception, **self.perception.model_dump()},
@@ -167,8 +179,11 @@ def resolve(
     # A path that was typed starts where it was typed; one in a scenario file, at that file.
     start = {
         key: Path() if key in own else base
-        for key in (*MODULES, "source.log", "world.map", "world.robot", "world.locations", "humans")
-    }
+        for key in (
+            *MODULES, "memory_from", "source.log", "world.map", "world.robot", "world.locations",
+            "humans",
+        )
+    }  # fmt: skip
     with problems.gathered():
         perception = load_perception(at(start["perception"], scenario.perception))
         perception = changed(perception, "perception")
@@ -177,6 +192,13 @@ def resolve(
         engine = changed(_Engine(parameters=book.parameters), "productions")
     with problems.gathered():
         memory = changed(load_memory(at(start["memory"], scenario.memory)), "memory")
+    recollection = None
+    written_at = "" if "memory_from" in own else _place(where, ("memory_from",))
+    remembering = f"{written_at}memory_from: " if written_at else ""
+    with problems.gathered(remembering):
+        if scenario.memory_from is not None:
+            there = start["memory_from"] / scenario.memory_from
+            recollection = recollect(there, scenario.runs, scenario.memory_pause_s)
     place = None
     if scenario.world is not None:
         typed_keys = [tuple(key.split(".")) for key in own]
@@ -195,6 +217,10 @@ def resolve(
         if scenario.humans is not None:
             load_choices(start["humans"] / scenario.humans)
     problems.complain()
+    with problems.gathered(remembering):
+        if recollection is not None:
+            recollection.check_views(perception.view_beams)
+    problems.complain()
     return Resolved(
         scenario=scenario,
         log=start["source.log"] / scenario.source.log if scenario.source else None,
@@ -202,6 +228,7 @@ def resolve(
         perception=perception,
         productions=replace(book, parameters=engine.parameters),
         memory=memory,
+        recollection=recollection,
     )
 
 

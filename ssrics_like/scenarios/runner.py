@@ -22,6 +22,7 @@ from ssrics_like.scenarios.feeds import DriveFeed, open_source
 from ssrics_like.scenarios.one_run import Part, Task
 from ssrics_like.scenarios.pool import carry_out_all
 from ssrics_like.scenarios.resolving import Resolved
+from ssrics_like.scenarios.run_id import run_id
 
 Progress = Callable[[int, float], None]
 """Called now and then with a run's number and the share of it that is done."""
@@ -68,6 +69,8 @@ def run_scenario(
     ------
     SourceError, ResultsError, EngineError
         The log cannot be read, the folder cannot be written, the rules never come to rest.
+    MemoryFileError
+        What is remembered has its positions in another frame.
     """
     (manifest,) = run_side_by_side(
         [(resolved, out)], resume=resume, jobs=jobs, progress=progress, say=say
@@ -100,7 +103,7 @@ def run_side_by_side(
 
     Raises
     ------
-    SourceError, ResultsError, EngineError
+    SourceError, ResultsError, EngineError, MemoryFileError
         As `run_scenario`.
     """
     descriptions = [_description(resolved) for resolved, _ in scenarios]  # before folders are made
@@ -119,7 +122,7 @@ def run_side_by_side(
                 shared.setdefault((drive_key(work.resolved), run), []).append(work)
         tasks, owners = [], []
         for (_, run), members in sorted(shared.items(), key=lambda item: item[0][1]):
-            parts = tuple(Part(w.resolved, w.folder.open_run(run)) for w in members)
+            parts = tuple(w.part(run) for w in members)
             tasks.append(Task(run, parts))
             owners.append(members)
         of_task = dict(zip(map(id, tasks), owners, strict=True))
@@ -162,6 +165,11 @@ class _Work:
             return
         there = self.folder.begin(self.description, resume=resume)
         self.missing = [n for n in range(self.resolved.scenario.runs) if n not in there]
+
+    def part(self, run: int) -> Part:
+        """Return one of the runs, its folder made."""
+        folder = self.folder.open_run(run)
+        return Part(self.resolved.of_run(run), folder, run_id(self.description, run))
 
     def join(self, *, only_if_cheap: bool = False) -> None:
         """Put the complete runs together, so that an interrupted command leaves them readable."""
@@ -211,6 +219,8 @@ def _description(resolved: Resolved) -> dict[str, Any]:
         log = open_source(resolved)
         frame = log.frame
         source = {"file": log.path.name, "format": log.format, "sha256": log.sha256}
+    if resolved.recollection is not None:
+        resolved.recollection.check_frame(frame)
     return {
         "scenario": resolved.as_data(),
         "versions": versions(),

@@ -9,9 +9,10 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, ValidationError, field_validator, model_validator
 
 from ssrics_like import library, settings
-from ssrics_like.errors import LibraryError, MapError, SettingsError
+from ssrics_like.errors import LibraryError, MapError, MemoryFileError, SettingsError
 from ssrics_like.maps import load_building, load_locations
 from ssrics_like.scenarios.problems import unknown_location
+from ssrics_like.scenarios.remembering import memory_files
 from ssrics_like.scenarios.world_settings import Strict, WorldSettings
 
 MODULES = ("perception", "productions", "memory")
@@ -97,6 +98,11 @@ class Scenario(Strict):
         A simulated building that they come from.
     perception, productions, memory : str
         Library entries, or paths relative to the scenario file.
+    memory_from : str
+        What the model remembers from the beginning: a file of memory, or a results folder, relative
+        to the scenario file; see `remembering.recollect`.
+    memory_pause_s : float
+        How many seconds have passed since that memory was saved.
     runs : int
         Number of runs; they differ in their noise.
     seed : int
@@ -124,6 +130,8 @@ class Scenario(Strict):
     perception: str = "human-like"
     productions: str = "landmark"
     memory: str = "act-r"
+    memory_from: Annotated[str, Field(min_length=1)] | None = None
+    memory_pause_s: Annotated[float, Field(ge=0.0, le=1e12)] = 0.0
     runs: Annotated[int, Field(ge=1, le=100_000)] = 1
     seed: Annotated[int, Field(ge=0)] = 2006
     humans: str | None = None
@@ -191,6 +199,12 @@ def _missing_files(document: settings.Document) -> list[str]:
             said = "is a folder" if (base / name).is_dir() else "no such file"
             dotted = ".".join(map(str, key))
             problems.append(f"{document.where(key)}: {dotted}: {base / name}: {said}")
+    name = _value(document.data, ("memory_from",))
+    try:
+        if isinstance(name, str) and name:
+            memory_files(base / name)
+    except MemoryFileError as e:
+        problems.append(f"{document.where(('memory_from',))}: memory_from: {e}")
     return problems
 
 

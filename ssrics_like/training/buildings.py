@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from ssrics_like.perception.observation import Pose
     from ssrics_like.training.conditions import Conditions
+    from ssrics_like.world.buildings.plan import Plan
     from ssrics_like.world.grid import GridMap
 
 
@@ -56,17 +57,44 @@ def training_building(conditions: Conditions, rng: np.random.Generator) -> Train
     rng : numpy.random.Generator
         Where chance comes from.
     """
-    building = build(generate(rng, conditions.building))
-    grid, radius_m = building.grid, conditions.robot.radius_m
-    start = roomiest(grid)
+    return cluttered(plain_building(generate(rng, conditions.building)), conditions, rng)
+
+
+def plain_building(plan: Plan) -> TrainingBuilding:
+    """Build a plan as it is, with the furniture that the generator put there.
+
+    Parameters
+    ----------
+    plan : Plan
+        The plan.
+    """
+    building = build(plan)
     doorways, others = (
-        grid.points_in_grid(
-            np.array(
-                [(p.x_m, p.y_m) for p in building.locations if (p.kind == "doorway") is wanted]
-            ).reshape(-1, 2)
-        )
+        np.array(
+            [(p.x_m, p.y_m) for p in building.locations if (p.kind == "doorway") is wanted]
+        ).reshape(-1, 2)
         for wanted in (True, False)
     )
+    return TrainingBuilding(building.grid, roomiest(building.grid), doorways, others)
+
+
+def cluttered(
+    building: TrainingBuilding, conditions: Conditions, rng: np.random.Generator
+) -> TrainingBuilding:
+    """Clutter a building.
+
+    Parameters
+    ----------
+    building : TrainingBuilding
+        The building; it is left as it is.
+    conditions : Conditions
+        How much is put into it.
+    rng : numpy.random.Generator
+        Where chance comes from.
+    """
+    grid, start, radius_m = building.grid, building.start, conditions.robot.radius_m
+    doorways = grid.points_in_grid(building.doorways_m)
+    others = grid.points_in_grid(building.others_m)
     labelled = np.concatenate([doorways, others])
     grid, framed = door_frames(grid, labelled, conditions.frames, start, radius_m, rng)
     every = np.concatenate([doorways, framed])

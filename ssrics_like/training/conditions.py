@@ -6,11 +6,12 @@ knows these, and not doorways.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ssrics_like.scenarios.modules import load_robot
 from ssrics_like.world.buildings.generator import DOORWAY_MIN_M, BuildingSettings
+from ssrics_like.world.buildings.layout import FEWEST, Shape
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,6 +37,8 @@ ROUGH = 0.6
 CLEAR_DOORWAYS = 0.3
 """Share of buildings whose furniture keeps 0.9 m away from doorways, not only from the start."""
 PEOPLE = (0, 0, 1, 2)
+HALLWAYS: tuple[Shape, ...] = ("T", "T", "X", "X", "L", "U", "ring", "straight")
+"""To learn structure: as many buildings with junctions as with corners or neither."""
 
 
 @dataclass(frozen=True)
@@ -85,6 +88,28 @@ def drawn_conditions(rng: np.random.Generator) -> Conditions:
         rough=bool(rng.random() < ROUGH),
         clear_doorways=bool(rng.random() < CLEAR_DOORWAYS),
         people=int(rng.choice(PEOPLE)),
+    )
+
+
+def structure_conditions(rng: np.random.Generator, *, clutter: bool) -> Conditions:
+    """Draw what a drive is like that is to show junctions and corners.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+        Where chance comes from.
+    clutter : bool
+        Whether the building is one to be cluttered, or one as the generator makes them by default,
+        where nobody walks about.
+    """
+    conditions = drawn_conditions(rng)
+    shape = HALLWAYS[int(rng.integers(len(HALLWAYS)))]
+    if not clutter:
+        return replace(conditions, building=BuildingSettings(hallways=shape), people=0)
+    rooms = max(conditions.building.rooms, FEWEST[shape])
+    return replace(
+        conditions,
+        building=conditions.building.model_copy(update={"hallways": shape, "rooms": rooms}),
     )
 
 

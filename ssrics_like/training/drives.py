@@ -58,7 +58,10 @@ def travelled(poses: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def explored(
-    building: TrainingBuilding, conditions: Conditions, seed: np.random.SeedSequence
+    building: TrainingBuilding,
+    conditions: Conditions,
+    seed: np.random.SeedSequence,
+    share: float = 1.0,
 ) -> TrainingDrive:
     """Let a robot explore a building.
 
@@ -70,10 +73,12 @@ def explored(
         Robot and people.
     seed : numpy.random.SeedSequence
         Of laser, odometry, wheels and people.
+    share : float
+        Of the time that a drive takes at most.
     """
     simulation = Simulation(
         building.grid, conditions.robot, building.start, [Exploration()], seed,
-        Disturbances(crowd=Crowd(conditions.people)), time_limit_s=LIMIT_S,
+        Disturbances(crowd=Crowd(conditions.people)), time_limit_s=share * LIMIT_S,
     )  # fmt: skip
     poses, ranges, places = [], [], []
     for observation in simulation:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ssrics_like.perception.conditioning import condition
 from ssrics_like.perception.gap import FEATURES
+from ssrics_like.perception.layout import LAYOUT
 from ssrics_like.perception.observation import Pose
 from ssrics_like.perception.profile import PerceptionProfile
 from ssrics_like.perception.surroundings import Described, Surroundings
@@ -32,8 +33,9 @@ class Example:
     xy_m : ndarray, shape (places, 2)
         Where each place really is, in the frame of the map.
     measures : ndarray, shape (places, features), float32
-        In the order of `ssrics_like.perception.gap.FEATURES`. Single precision halves the memory
-        of a training and is a hundred thousand times finer than a cell.
+        In the order of `ssrics_like.perception.gap.FEATURES`, or of
+        `ssrics_like.perception.layout.LAYOUT` where that is described. Single precision halves the
+        memory of a training and is a hundred thousand times finer than a cell.
     doorways_m, others_m : ndarray, shape (n, 2), shape (m, 2)
         The building's doorways, and other labelled places, in the frame of the map.
     """
@@ -60,16 +62,18 @@ def example(seed: np.random.SeedSequence) -> Example:
     return described(augmented(explored(building, conditions, of_drive), rng))
 
 
-def described(drive: TrainingDrive) -> Example:
+def described(drive: TrainingDrive, *, layout: bool = False) -> Example:
     """Describe the places along a drive, as the model itself does when it runs.
 
     Parameters
     ----------
     drive : TrainingDrive
         The drive.
+    layout : bool
+        Whether their layout is wanted, and not the gap at each.
     """
     profile = PerceptionProfile()
-    surroundings: Surroundings[int] = Surroundings()
+    surroundings: Surroundings[int] = Surroundings(wide=layout)
     found: list[Described[int]] = []
     for scan, (pose, ranges_m) in enumerate(zip(drive.poses, drive.ranges_m, strict=True)):
         conditioned = condition(ranges_m, profile.range_cap_m, profile.repair_window)
@@ -80,5 +84,7 @@ def described(drive: TrainingDrive) -> Example:
     xy_m = np.column_stack(
         [np.interp(at_m, drive.travelled_m, drive.true_xy_m[:, axis]) for axis in (0, 1)]
     )
-    measures = np.array([one.measures for one in found], np.float32).reshape(-1, len(FEATURES))
+    measures = np.array(
+        [one.layout if layout else one.measures for one in found], np.float32
+    ).reshape(-1, len(LAYOUT if layout else FEATURES))
     return Example(at_m, xy_m, measures, drive.doorways_m, drive.others_m)

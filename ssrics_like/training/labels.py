@@ -33,15 +33,15 @@ def labels(example: Example) -> NDArray[np.int8]:
     -------
     ndarray, shape (places,), int8
     """
-    doorway_m = _nearest(example.xy_m, example.doorways_m)
+    doorway_m = nearest(example.xy_m, example.doorways_m)
     told = np.full(len(doorway_m), NOT, np.int8)
-    told[_nearest(example.xy_m, example.others_m) < OTHER_M] = LEFT_OUT
+    told[nearest(example.xy_m, example.others_m) < OTHER_M] = LEFT_OUT
     told[doorway_m < ARGUABLE_M] = LEFT_OUT
     told[doorway_m < WITHIN_M] = DOORWAY
     return told
 
 
-def _nearest(places: NDArray[np.float64], marks: NDArray[np.float64]) -> NDArray[np.float64]:
+def nearest(places: NDArray[np.float64], marks: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return how far the nearest mark is from each place, metres; infinity if there is none."""
     distances: NDArray[np.float64] = cdist(places, marks).min(axis=1, initial=np.inf)
     return distances

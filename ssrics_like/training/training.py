@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,18 +12,15 @@ from ssrics_like.perception.doorways import DoorwayCue
 from ssrics_like.training.examples import Example, example
 from ssrics_like.training.fitting import grown, learner
 from ssrics_like.training.labels import DOORWAY, LEFT_OUT, labels
-from ssrics_like.training.pool import in_order
+from ssrics_like.training.making import Say, made
 from ssrics_like.training.threshold import choose_threshold
 
 if TYPE_CHECKING:
     from ssrics_like.comparison.tally import Tally
     from ssrics_like.training.settings import TrainingSettings
 
-Say = Callable[[str], None]
 TRAINING, HELD_OUT = 0, 1
 """First number of an example's spawn key, so that the two kinds never share a building."""
-TELL = 20
-"""Progress is told after so many drives."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,9 +102,4 @@ def _trained(settings: TrainingSettings, seed: int, jobs: int, say: Say) -> Trai
 
 def _examples(what: str, kind: int, count: int, seed: int, jobs: int, say: Say) -> list[Example]:
     seeds = [np.random.SeedSequence(seed, spawn_key=(kind, number)) for number in range(count)]
-    made = []
-    for one in in_order(example, seeds, jobs):
-        made.append(one)
-        if len(made) % TELL == 0 or len(made) == count:
-            say(f"seed {seed}: {len(made)} of {count} {what} drives")
-    return made
+    return made(what, example, seeds, seed, jobs, say)

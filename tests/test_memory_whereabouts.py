@@ -1,0 +1,174 @@
+"""Whereabouts: what is expected where, one hypothesis or several."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ssrics_like import load_memory
+from ssrics_like.memory.base_level import base_level
+from ssrics_like.memory.links import Links
+from ssrics_like.memory.whereabouts import FAR, Here, Uncertainty, Whereabouts
+from ssrics_like.poses import Pose
+
+CERTAIN = Uncertainty(0.25, 0.2, 0.0, 0.0, 0.0)
+DRIFTING = Uncertainty(0.25, 0.2, 0.05, 0.01, 0.01)
+
+
+def here(x_m, y_m, theta_rad=0.0, travelled_m=0.0, *, directed=True, turned_rad=0.0):
+    return Here(Pose(x_m, y_m, theta_rad), directed, travelled_m, turned_rad)
+
+
+def corridor(uncertainty=CERTAIN, doors=4, apart_m=4.0):
+    """Find doors along a corridor."""
+    whereabouts = Whereabouts(uncertainty, Links())
+    for i in range(doors):
+        whereabouts.find(f"L{i + 1}", here(apart_m * i, 0.0, 0.0, apart_m * i))
+    return whereabouts, [f"L{i + 1}" for i in range(doors)]
+
+
+def test_without_drift_a_place_is_as_probable_as_gauss_has_it():
+    whereabouts, names = corridor()
+    for off_m in (0.0, 0.2, 0.7):
+        nats = whereabouts.expect(here(4.0 + off_m, 0.0, 0.0, 20.0), names)
+        link_m2 = 2 * 0.02**2  # back along two links, as certain as a link can be
+        turn_m2 = 0.005**2 * 16.0
+        variance = 0.25**2 + link_m2 + turn_m2
+        expected = 0.5 * off_m**2 / variance + math.log(variance / 0.25**2)
+        assert nats["L2"] == pytest.approx(expected, rel=0.02, abs=1e-3)
+        assert nats.get("L4", FAR) > 15.0
+
+
+def test_a_doorway_is_the_same_from_the_other_side_and_no_other_way():
+    whereabouts, names = corridor()
+    straight, back, across = (
+        whereabouts.expect(here(4.0, 0.0, turn, 20.0), names)["L2"]
+        for turn in (0.0, math.pi, math.pi / 2)
+    )
+    assert straight == pytest.approx(back, abs=1e-6)
+    assert across == pytest.approx(straight + 3.0, abs=1e-6)  # the most that a direction counts
+    undirected = here(4.0, 0.0, math.pi / 2, 20.0, directed=False)
+    assert whereabouts.expect(undirected, names)["L2"] == pytest.approx(straight, abs=1e-6)
+
+
+def test_the_longer_the_way_the_less_a_distance_counts():
+    counts = []
+    for travelled_m in (15.0, 60.0, 240.0):
+        whereabouts, names = corridor(DRIFTING)
+        near, off = (
+            whereabouts.expect(here(x_m, 0.0, 0.0, travelled_m), names)["L2"] for x_m in (4.0, 5.0)
+        )
+        counts.append(off - near)
+    assert counts == sorted(counts, reverse=True)
+    assert counts[-1] < counts[0] / 3
+
+
+def test_recognising_a_landmark_corrects_where_the_robot_believes_to_be():
+    whereabouts, names = corridor(DRIFTING)
+    # Odometry says 1 m more, after 60 m; L1 is recognised, and with it all others lie there.
+    whereabouts.expect(here(1.0, 0.0, 0.0, 60.0), names)
+    before = whereabouts.recognise("L1", here(1.0, 0.0, 0.0, 60.0))
+    assert before.landmark == "L4"
+    nats = whereabouts.expect(here(5.0, 0.0, 0.0, 64.0), names)
+    assert nats["L2"] < 1.5
+    assert min(nats, key=nats.get) == "L2"
+
+
+def test_drift_is_absorbed_by_the_link_that_closes_a_loop():
+    links = Links()
+    whereabouts = Whereabouts(DRIFTING, links)
+    corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
+    for i, (x_m, y_m) in enumerate(corners):
+        whereabouts.find(f"L{i + 1}", here(x_m, y_m, 0.0, 10.0 * i))
+    kept = {pair: links.between(*pair) for pair in (("L1", "L2"), ("L2", "L3"), ("L3", "L4"))}
+    again = here(0.4, -0.3, 0.0, 40.0)
+    whereabouts.expect(again, ["L1", "L2", "L3", "L4"])
+    whereabouts.recognise("L1", again)
+    assert {pair: links.between(*pair) for pair in kept} == kept
+    closing = links.between("L4", "L1").pose
+    assert closing.distance_m(Pose(0.0, -10.0, 0.0)) < 0.6
+
+
+def test_of_two_hypotheses_the_next_landmark_tells_which():
+    """Doors 3 m apart after 5 m of drift: only the gap between the next two is different."""
+    links = Links()
+    whereabouts = Whereabouts(Uncertainty(0.25, 0.2, 0.0, 0.0, 0.0, bias=0.05), links)
+    at_m = [0.0, 3.0, 6.0, 14.0, 17.0]
+    names = [f"L{i + 1}" for i in range(len(at_m))]
+    for name, x_m in zip(names, at_m, strict=True):
+        whereabouts.find(name, here(x_m, 0.0, 0.0, x_m))
+    evidence = dict.fromkeys(names, 0.0)
+    # Really at L2, after 60 m, and odometry is 1.5 m off: L1 or L2.
+    first = here(1.5, 0.0, 0.0, 77.0)
+    nats = whereabouts.expect(first, names)
+    assert abs(nats["L1"] - nats["L2"]) < 0.5
+    whereabouts.doubt(first, evidence, -10.0)
+    assert {h.landmark for h in whereabouts.hypotheses} >= {"L1", "L2"}
+    second = here(4.5, 0.0, 0.0, 80.0)
+    whereabouts.expect(second, names)
+    whereabouts.doubt(second, evidence, -10.0)
+    third = here(12.5, 0.0, 0.0, 88.0)  # 8 m on: only from L3 to L4
+    nats = whereabouts.expect(third, names)
+    assert min(nats, key=nats.get) == "L4"
+    assert sorted(nats.values())[1] > nats["L4"] + 3.0
+
+
+def test_a_robot_that_is_lost_finds_itself_by_the_gaps_between_landmarks():
+    links = Links()
+    whereabouts = Whereabouts(CERTAIN, links)
+    places = {"L1": (0.0, 0.0), "L2": (3.0, 0.0), "L3": (3.0, 5.0), "L4": (-4.0, 5.0)}
+    for i, (name, place) in enumerate(places.items()):
+        whereabouts.find(name, here(*place, 0.0, 5.0 * i))
+    whereabouts.lose()
+    evidence = dict.fromkeys(places, 0.0)
+    frame = Pose(50.0, -20.0, 2.0)  # where the robot, set down anew, believes the origin to be
+    for name in ("L2", "L3"):
+        seen = frame.onward(Pose(*places[name], 0.0))
+        at = Here(seen, True, 0.0 if name == "L2" else 5.0, 0.0)
+        nats = whereabouts.expect(at, places)
+        if name == "L2":
+            assert len({round(value, 6) for value in nats.values()}) == 1
+            whereabouts.doubt(at, evidence, -10.0)
+    assert min(nats, key=nats.get) == "L3"
+    whereabouts.recognise("L3", at)
+    nats = whereabouts.expect(Here(frame.onward(Pose(-4.0, 5.0, 0.0)), True, 12.0, 0.0), places)
+    assert min(nats, key=nats.get) == "L4"
+    assert nats["L4"] < 3.0  # what two landmarks say of the direction is not very certain
+
+
+def test_a_robot_that_is_lost_trusts_no_single_landmark_and_gives_up_in_the_end():
+    whereabouts, names = corridor()
+    assert whereabouts.settled("L2")
+    whereabouts.lose()
+    assert whereabouts.settled(None)  # where nothing is known here, this is new
+    evidence = dict.fromkeys(names, 0.0)
+    for i, name in enumerate(names[:2]):
+        whereabouts.expect(here(4.0 * i, 0.0, 0.0, 4.0 * i), names)
+        assert not whereabouts.settled(name)
+        whereabouts.doubt(here(4.0 * i, 0.0, 0.0, 4.0 * i), evidence, -10.0)
+        assert not whereabouts.settled(None)
+    whereabouts.expect(here(8.0, 0.0, 0.0, 8.0), names)
+    assert whereabouts.settled("L3")
+    for i in range(3, 8):  # but then nothing fits any more
+        far = here(100.0 * i, 0.0, 0.0, 100.0 * i)
+        whereabouts.expect(far, names)
+        whereabouts.doubt(far, {}, -10.0)
+    assert whereabouts.settled(None)
+    assert whereabouts.find("L9", far) is None  # it is not joined to anything
+
+
+def test_a_landmark_is_never_recalled_elsewhere_however_often_it_was_recognised():
+    """A landmark that is recalled everywhere would grow stronger each time."""
+    profile = load_memory("act-r")
+    strongest = base_level(-20.0 * np.arange(1, 100_001), 0.0, decay=profile.decay)
+    assert strongest - FAR < profile.retrieval_threshold
+    whereabouts, names = corridor()
+    for x_m in (2.0, 30.0):
+        nats = whereabouts.expect(here(x_m, 5.0, 0.0, 20.0), names)
+        assert all(value == FAR for value in nats.values())
+
+
+def test_before_the_first_landmark_nothing_is_expected():
+    whereabouts = Whereabouts(CERTAIN, Links())
+    assert whereabouts.expect(here(0.0, 0.0), []) == {}
+    assert whereabouts.find("L1", here(0.0, 0.0)) is None
