@@ -88,6 +88,7 @@ class LandmarkModules:
             bias=profile.wheel_bias,
         )
         self._expected: dict[str, float] = {}
+        self._asked_for: tuple[int, tuple[Hypothesis, ...]] | None = None
         self.start_from(TopologicalMemory())
         self._decided = decided
         self._retrieved = retrieved
@@ -193,12 +194,11 @@ class LandmarkModules:
         if request.outcome == "declared":
             name = self.topological.next_id()
             made = self._declare(name, reflex)
-        here = _here(reflex)
-        if request.outcome == "declared":
-            self._arrive(name, reflex, self._whereabouts.find(name, here), new=True)
+            self._arrive(name, reflex, self._whereabouts.find(name, _here(reflex)), new=True)
         elif request.outcome == "recognised":
             self._expect(reflex)
-            self._arrive(name, reflex, self._whereabouts.recognise(name, here), new=False)
+            before = self._whereabouts.recognise(name, _here(reflex))
+            self._arrive(name, reflex, before, new=False)
         elif request.outcome == "unsure" and self._recalled is not None:
             self._doubt(reflex, self._recalled[0])
         self._decide(
@@ -246,8 +246,10 @@ class LandmarkModules:
 
     def _expect(self, reflex: Reflex) -> None:
         """Reckon how improbable each landmark is where a reflex was fired."""
-        landmarks = (landmark.id for landmark in self.topological.nodes)
-        self._expected = self._whereabouts.expect(_here(reflex), landmarks)
+        asked = reflex.event, self._whereabouts.hypotheses
+        if self._asked_for != asked:  # rules ask, and decide, about the same place
+            self._asked_for = asked
+            self._expected = self._whereabouts.expect(_here(reflex), self.topological)
 
     def _doubt(self, reflex: Reflex, recalled: Retrieval) -> None:
         """Go on with every landmark that this may be, by all else that speaks for each."""
@@ -276,6 +278,9 @@ class LandmarkModules:
             return word
         if slot == "view" and (stored := self._stored_view(word)) is not None:
             return stored
+        if slot == "place" and word.startswith(PLACE_OF):  # where a landmark is, no other is
+            self._asked_for, self._expected = None, {word.removeprefix(PLACE_OF): 0.0}
+            return word
         reflex = self._reflex_of(slot, word)
         if slot == "view":
             return View(word, reflex.view)
@@ -288,6 +293,8 @@ class LandmarkModules:
             return word
         if slot == "view" and (stored := self._stored_view(word)) is not None:
             return stored
+        if slot == "place" and word.startswith(PLACE_OF):
+            return word
         reflex = self._reflex_of(slot, word)
         return View(word, reflex.view) if slot == "view" else f"{PLACE_OF}{name}"
 

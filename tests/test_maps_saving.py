@@ -54,6 +54,14 @@ FINITE = st.floats(-1e9, 1e9)
 NAMES = st.text(st.characters(codec="utf-8"), max_size=8)
 
 
+@pytest.mark.parametrize("title", ["0E0", "1e3", "-2.5E+7", "1_0e1", "yes", "12:30", "null", "~"])
+def test_text_that_looks_like_something_else_stays_text(tmp_path, title):
+    grid = GridMap(np.full((2, 3), FREE, np.uint8), 0.1)
+    place = Location(title, 0.15, 0.1, title)
+    again = load_building(save_building(Building(title, grid, (place,)), tmp_path / "map"))
+    assert (again.title, again.locations) == (title, (place,))
+
+
 @given(st.data())
 @settings(max_examples=100, deadline=None)
 def test_a_building_read_again_is_the_same_to_the_last_bit(tmp_path_factory, data):

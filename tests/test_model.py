@@ -180,6 +180,28 @@ def test_a_retrieval_may_take_minutes():
     assert decision.decided_s == pytest.approx(1.1 + 0.001 * math.exp(13.0), abs=1e-3)
 
 
+def test_a_rule_may_ask_by_the_place_of_a_landmark(tmp_path):
+    """The handle of a chunk's place finds that landmark alone, and may be kept in another chunk."""
+    text = find("productions", "landmark").read_text()
+    before = "      =retrieval>\n          isa landmark\n          id =landmark\n"
+    assert text.count(before) == 1
+    path = tmp_path / "again.yaml"
+    path.write_text(
+        text.replace(before, before + "          place =place\n")
+        .replace(
+            "      +landmark>\n          isa mark\n          outcome recognised",
+            "      +imaginal>\n          isa landmark\n          place =place\n"
+            "      +landmark>\n          isa mark\n          outcome recognised",
+        )
+        .replace("harvest: [retrieval, landmark]", "harvest: [retrieval, landmark, imaginal]")
+    )
+    model = CognitiveModel(PERCEPTION, load_rulebook(path), MEMORY)
+    decisions = drive(model, [(0.0, 1), (10.0, 2), (0.0, 1), (10.0, 2)])
+    assert [d.decision for d in decisions] == ["declared"] * 2 + ["recognised"] * 2
+    kept = [model.declarative[name].slots for name in model.declarative.names]
+    assert {"place": "place-of-L1"} in kept
+
+
 def test_recognising_strengthens_the_landmarks_chunk():
     model = landmark_model()
     drive(model, [(0.0, 1), (10.0, 2), (0.0, 1)])

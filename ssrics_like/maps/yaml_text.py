@@ -6,6 +6,8 @@ from typing import Any
 
 import yaml
 
+from ssrics_like.settings import Dumper, Loader
+
 
 def yaml_text(value: Any, *, flow: bool | None) -> str:
     """Return a value as YAML.
@@ -19,11 +21,13 @@ def yaml_text(value: Any, *, flow: bool | None) -> str:
     """
 
     def dump(*, unicode: bool) -> str:
-        text: str = yaml.safe_dump(
-            value, default_flow_style=flow, sort_keys=False, allow_unicode=unicode, width=100_000
-        )
+        text: str = yaml.dump(
+            value, Dumper=Dumper, default_flow_style=flow, sort_keys=False, allow_unicode=unicode,
+            width=100_000,
+        )  # fmt: skip
         return text
 
     text = dump(unicode=True)
     # PyYAML writes some line separators as they are, and then reads them as spaces.
-    return text if yaml.safe_load(text) == value else dump(unicode=False)
+    again = yaml.load(text, Loader)  # noqa: S506 - a SafeLoader
+    return text if again == value else dump(unicode=False)

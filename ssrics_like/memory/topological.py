@@ -9,7 +9,7 @@ one another or with one map, and nothing here does.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -106,6 +106,10 @@ class TopologicalMemory:
             "position_sd_m": math.sqrt(link.variance_m2),
             "direction_sd_rad": math.sqrt(link.variance_rad2),
         }
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names of all landmarks, in the order in which they were marked."""
+        return iter(self._graph)
 
     def next_id(self) -> str:
         """Return the name of the next landmark: L and a number above every one there is."""

@@ -170,7 +170,7 @@ class Whereabouts:
         here : Here
             What was perceived.
         landmarks : iterable of str
-            All there are.
+            All there are; gone through only if the robot may be anywhere.
 
         Returns
         -------
@@ -179,7 +179,8 @@ class Whereabouts:
             p0 that of perceiving it where it is, if all were known for certain; none is above 20,
             and a landmark that is not in it counts 20.
         """
-        names = list(landmarks)
+        lost = any(hypothesis.landmark is None for hypothesis in self.hypotheses)
+        names = list(landmarks) if lost else []
         around: dict[str, dict[str, Link]] = {}
         total = sum(math.exp(hypothesis.weight) for hypothesis in self.hypotheses)
         odds: dict[str, float] = {}

@@ -35,8 +35,8 @@ FEW = 20
 SHARE = 0.4
 """Where a smaller share of the points lies near lines, scans do not fit: then odometry counts."""
 ELSEWHERE = 0.3
-"""A smaller share yet is another place: the robot was carried. On the way from one key scan to the
-next it was never below .34 on six simulated drives, and in 9 of 10 random places below .26."""
+"""A smaller share yet is another place: the robot was carried. `benchmarks/bench_egomotion.py` says
+how often that is noticed, and how often without reason."""
 FAR_M, FAR_RAD = 0.15, 0.15
 """A match farther from what odometry says is a mistake."""
 STILL_M, STILL_RAD = 1e-4, 1e-4
