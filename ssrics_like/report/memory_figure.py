@@ -14,6 +14,9 @@ from ssrics_like.report.map_figure import HEIGHTS_PT, MARGINS_PT
 from ssrics_like.report.markers import draw_landmarks
 from ssrics_like.results import records
 
+BELOW = 0.12
+"""Room below the lowest landmark, as a share of the whole."""
+
 
 def memory_svg(memory: SavedMemory) -> str:
     """Return a picture of a memory as SVG; equal memories give equal text."""
@@ -30,6 +33,10 @@ def draw_memory(memory: SavedMemory) -> Drawing:
     width_pt = style.WIDTH_IN * style.POINTS - left - right
     places = {mark.name: (mark.x_m, mark.y_m) for mark in marks}
     at = np.array(list(places.values()), np.float64).reshape(-1, 2)
+    if len(at):  # the scale bar stands below the lowest landmark, not on it
+        at = np.vstack(
+            [at, at.min(axis=0) - (0.0, BELOW * max(float(np.ptp(at, axis=0).max()), 1.0))]
+        )
     frame = frame_around(at, width_pt, HEIGHTS_PT)
     figure = style.new_figure((frame.height_pt + bottom + top) / style.POINTS)
     axes = style.place_axes(figure, left, right, bottom, top)
