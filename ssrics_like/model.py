@@ -23,6 +23,7 @@ from ssrics_like.perception.reflex import PerceptionBuffer, Reflex
 from ssrics_like.productions.engine import Engine
 from ssrics_like.productions.interface import TraceEvent
 from ssrics_like.productions.rules import Rulebook
+from ssrics_like.wayfinding import Wayfinder
 
 FRAMES = ("odometry", "corrected", "map")
 DRIFTS = ("place_drift", "swerve_drift_rad", "turn_drift_rad", "wheel_bias")
@@ -51,6 +52,15 @@ class CognitiveModel:
     remembered : SavedMemory, optional
         What an earlier run left: the model begins with it at the moment of its saving (see
         `SavedMemory.aged`), and numbers landmarks on.
+
+    Attributes
+    ----------
+    perception : PerceptionBuffer
+        What it senses.
+    engine : Engine
+        Its productions.
+    wayfinder : Wayfinder
+        Leads a robot that it is joined to.
 
     Raises
     ------
@@ -97,10 +107,16 @@ class CognitiveModel:
         self._modules = LandmarkModules(
             memory, np.random.default_rng(memory_seed), self._decisions.append, retrieved
         )
+        self.wayfinder = Wayfinder(
+            self._modules,
+            self.perception,
+            lambda chunk: self.engine.push("way", chunk, self.now_s),
+        )
         self.engine = Engine(
             productions,
             self._modules,
             self._modules,
+            self.wayfinder,
             seed=int(utility_seed.generate_state(1)[0]),
             trace=trace,
         )
@@ -170,6 +186,7 @@ class CognitiveModel:
         self.engine.advance(now_s)
         for reflex in self.perception.update(observation):
             self._orient(reflex, now_s)
+        self.wayfinder.look(observation.t_s)
         return self._take()
 
     def finish(self) -> list[Decision]:

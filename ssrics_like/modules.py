@@ -96,7 +96,7 @@ class LandmarkModules:
         self._waiting: dict[str, Reflex] = {}
         self._known: OrderedDict[str, Reflex] = OrderedDict()
         self._recalled: tuple[Retrieval, float] | None = None
-        self._carried = 0
+        self.carried = 0
 
     @property
     def undecided(self) -> int:
@@ -106,9 +106,9 @@ class LandmarkModules:
     def start_from(self, topological: TopologicalMemory) -> None:
         """Begin with a graph; where in it the robot is, it does not know."""
         self.topological = topological
-        self._whereabouts = Whereabouts(self._uncertainty, topological.links)
+        self.whereabouts = Whereabouts(self._uncertainty, topological.links)
         if len(topological):
-            self._whereabouts.lose()
+            self.whereabouts.lose()
 
     def begin(self, start_s: float) -> None:
         """Set the source's time that is zero in the engine."""
@@ -118,9 +118,9 @@ class LandmarkModules:
         """Register a reflex and return its chunk for the orienting buffer."""
         event = str(reflex.event)
         self._waiting[event] = reflex
-        if reflex.carried > self._carried:
-            self._carried = reflex.carried
-            self._whereabouts.lose()
+        if reflex.carried > self.carried:
+            self.carried = reflex.carried
+            self.whereabouts.lose()
         slots = {
             "event": event,
             "modality": reflex.modality,
@@ -194,10 +194,10 @@ class LandmarkModules:
         if request.outcome == "declared":
             name = self.topological.next_id()
             made = self._declare(name, reflex)
-            self._arrive(name, reflex, self._whereabouts.find(name, _here(reflex)), new=True)
+            self._arrive(name, reflex, self.whereabouts.find(name, _here(reflex)), new=True)
         elif request.outcome == "recognised":
             self._expect(reflex)
-            before = self._whereabouts.recognise(name, _here(reflex))
+            before = self.whereabouts.recognise(name, _here(reflex))
             self._arrive(name, reflex, before, new=False)
         elif request.outcome == "unsure" and self._recalled is not None:
             self._doubt(reflex, self._recalled[0])
@@ -246,10 +246,10 @@ class LandmarkModules:
 
     def _expect(self, reflex: Reflex) -> None:
         """Reckon how improbable each landmark is where a reflex was fired."""
-        asked = reflex.event, self._whereabouts.hypotheses
+        asked = reflex.event, self.whereabouts.hypotheses
         if self._asked_for != asked:  # rules ask, and decide, about the same place
             self._asked_for = asked
-            self._expected = self._whereabouts.expect(_here(reflex), self.topological)
+            self._expected = self.whereabouts.expect(_here(reflex), self.topological)
 
     def _doubt(self, reflex: Reflex, recalled: Retrieval) -> None:
         """Go on with every landmark that this may be, by all else that speaks for each."""
@@ -259,13 +259,13 @@ class LandmarkModules:
             str(name): float(total - noise) + self._expected.get(str(name), FAR)
             for name, total, noise in zip(found.names, found.total, found.noise, strict=True)
         }
-        self._whereabouts.doubt(_here(reflex), evidence, found.threshold)
+        self.whereabouts.doubt(_here(reflex), evidence, found.threshold)
 
     def _confidence(self, recalled: Retrieval) -> float:
         """Return how probable it is that what was recalled, or that nothing was, is right."""
         share = _share_of_odds(recalled)
         name = None if recalled.chunk is None else recalled.chunk.name
-        return share if self._whereabouts.settled(name) else min(share, UNSETTLED)
+        return share if self.whereabouts.settled(name) else min(share, UNSETTLED)
 
     def _likeness_of_places(self, asked: Value) -> dict[Value, float]:
         """Similarity of landmarks' places to that of a reflex, which was reckoned before."""

@@ -14,7 +14,7 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
     "designators": {"errors", "settings", "perception"},
     "maps": {"errors", "settings", "atomic", "world"},
     "memory": {"errors", "poses"},
-    "productions": {"errors", "settings"},
+    "productions": {"errors", "library", "settings"},
     "sources": {"errors", "perception"},
     "modules": {"errors", "decision", *MIND},
     "cues": {"errors", "atomic", "perception"},

@@ -24,11 +24,16 @@ from ssrics_like.world.reachable import roomiest, standing
 from ssrics_like.world.simulation import Simulation
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from ssrics_like.perception.observation import Observation
+    from ssrics_like.world.disturbances import DoorChange, Kidnap
     from ssrics_like.world.grid import GridMap
     from ssrics_like.world.locations import Location
+    from ssrics_like.world.navigation import Leg
+    from ssrics_like.world.robot import RobotProfile
 
 TESTING, TUNING, TRAINING = 0, 1, 2
 """Part of every seed, so that no building serves two purposes."""
@@ -120,9 +125,7 @@ def make_drive(spec: Spec) -> BenchDrive:
     """
     if isinstance(spec, OfLog):
         return _of_log(spec)
-    if isinstance(spec, OnPlan):
-        return _on_plan(spec)
-    return _generated(spec)
+    return _driven(stage(spec))
 
 
 def _of_log(spec: OfLog) -> BenchDrive:
@@ -138,17 +141,66 @@ def _of_log(spec: OfLog) -> BenchDrive:
     )
 
 
-def _on_plan(spec: OnPlan) -> BenchDrive:
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """Where a simulated drive happens, before anything moves.
+
+    Attributes
+    ----------
+    grid : GridMap
+        The building.
+    robot : RobotProfile
+        Who drives.
+    start : Pose
+        Where, grid frame.
+    seed : numpy.random.SeedSequence
+        Of the drive's randomness.
+    locations : tuple of Location
+        Labelled places, frame of the map.
+    lines_m : ndarray, shape (locations, 2, 2)
+        Both ends of the line across each.
+    people : int
+        How many walk about.
+    """
+
+    grid: GridMap
+    robot: RobotProfile
+    start: Pose
+    seed: np.random.SeedSequence
+    locations: tuple[Location, ...]
+    lines_m: NDArray[np.float64]
+    people: int = 0
+
+    def simulation(
+        self, legs: Sequence[Leg], *, doors: Sequence[DoorChange] = (),
+        kidnaps: Sequence[Kidnap] = (),
+    ) -> Simulation:  # fmt: skip
+        """Return a drive on it."""
+        happenings = Disturbances(tuple(doors), tuple(kidnaps), Crowd(self.people))
+        return Simulation(
+            self.grid, self.robot, self.start, legs, self.seed, happenings, time_limit_s=LIMIT_S
+        )
+
+
+def stage(spec: Simulated | OnPlan) -> Stage:
+    """Set up a simulated drive; the spec alone decides about it.
+
+    Raises
+    ------
+    MapError
+        A plan cannot be read.
+    """
+    return _plan_stage(spec) if isinstance(spec, OnPlan) else _generated_stage(spec)
+
+
+def _plan_stage(spec: OnPlan) -> Stage:
     plan, robot = load_plan(spec.folder), spec.condition.robot()
     placing, driving = np.random.SeedSequence((TESTING, spec.seed)).spawn(2)
     start = _drawn_start(plan.grid, robot.radius_m, np.random.default_rng(placing))
-    simulation = Simulation(
-        plan.grid, robot, start, [Exploration()], driving, time_limit_s=LIMIT_S
-    )  # fmt: skip
-    return _driven(simulation, plan.locations, plan.lines_m)
+    return Stage(plan.grid, robot, start, driving, plan.locations, plan.lines_m)
 
 
-def _generated(spec: Simulated) -> BenchDrive:
+def _generated_stage(spec: Simulated) -> Stage:
     condition, robot = spec.condition, spec.condition.robot()
     drawing, cluttering, driving = np.random.SeedSequence((spec.purpose, spec.seed)).spawn(3)
     building = build(generate(np.random.default_rng(drawing), condition.building()))
@@ -164,11 +216,7 @@ def _generated(spec: Simulated) -> BenchDrive:
     if spec.visit:
         placing, driving = driving.spawn(spec.visit + 1)[-1].spawn(2)
         start = _drawn_start(grid, robot.radius_m, np.random.default_rng(placing))
-    simulation = Simulation(
-        grid, robot, start, [Exploration()], driving,
-        Disturbances(crowd=Crowd(condition.people)), time_limit_s=LIMIT_S,
-    )  # fmt: skip
-    return _driven(simulation, building.locations, lines_m)
+    return Stage(grid, robot, start, driving, building.locations, lines_m, condition.people)
 
 
 def _drawn_start(grid: GridMap, radius_m: float, rng: np.random.Generator) -> Pose:
@@ -181,13 +229,12 @@ def _drawn_start(grid: GridMap, radius_m: float, rng: np.random.Generator) -> Po
     return Pose((column + 0.5) * grid.cell_m, (row + 0.5) * grid.cell_m, float(rng.uniform(-3, 3)))
 
 
-def _driven(
-    simulation: Simulation, locations: tuple[Location, ...], lines_m: NDArray[np.float64]
-) -> BenchDrive:
-    observations = tuple(simulation)
+def _driven(there: Stage) -> BenchDrive:
+    observations = tuple(there.simulation([Exploration()]))
     truths = [observation.true_pose for observation in observations]
     way = Way.through([(pose.x_m, pose.y_m) for pose in truths if pose is not None])
-    designated = np.array([place.kind == DESIGNATED for place in locations], bool)
+    designated = np.array([place.kind == DESIGNATED for place in there.locations], bool)
     return BenchDrive(
-        observations, "odometry", way, locations, designated, passages_through(way, lines_m)
-    )
+        observations, "odometry", way, there.locations, designated,
+        passages_through(way, there.lines_m),
+    )  # fmt: skip

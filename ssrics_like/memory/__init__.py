@@ -9,6 +9,7 @@ from ssrics_like.memory.chunks import Chunk, Request, Value, View
 from ssrics_like.memory.declarative import DeclarativeMemory
 from ssrics_like.memory.landmark import Arc, Landmark
 from ssrics_like.memory.parameters import MemoryParameters
+from ssrics_like.memory.routes import Route, shortest_routes
 from ssrics_like.memory.saved import PastRun, RememberedChunk, SavedMemory
 from ssrics_like.memory.saved_file import load_memory_file, save_memory_file
 from ssrics_like.memory.similarity import (
@@ -38,6 +39,7 @@ __all__ = [
     "RememberedChunk",
     "Request",
     "Retrieval",
+    "Route",
     "SavedMemory",
     "SlotSimilarity",
     "TableSimilarity",
@@ -52,4 +54,5 @@ __all__ = [
     "load_topology",
     "save_memory_file",
     "save_topology",
+    "shortest_routes",
 ]

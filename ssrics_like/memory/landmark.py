@@ -13,9 +13,9 @@ import numpy as np
 Label: TypeAlias = str | int | float | bool
 
 RESERVED_LABELS = frozenset({"closed", "same_as", "component", "origin"})
-"""Kept for what later versions will say of a landmark or arc: a way found shut, the same
-place met from another side, a part of the map not yet joined to the rest. `origin` is said in
-files of memory: where a landmark was declared."""
+"""Kept for what later versions will say of a landmark: the same place met from another side, a
+part of the map not yet joined to the rest. `origin` is said in files of memory: where a landmark
+was declared."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,8 @@ class Arc:
         that landmark, its x axis the direction in which it was declared.
     position_sd_m, direction_sd_rad : float
         How uncertain that is, standard deviations; 0 if it was not measured.
+    closed : int
+        How often the way was found shut since it was last gone, either way; 0 for an open one.
     """
 
     from_id: str
@@ -86,6 +88,7 @@ class Arc:
     theta_rad: float = 0.0
     position_sd_m: float = 0.0
     direction_sd_rad: float = 0.0
+    closed: int = 0
 
 
 GIVEN_NAME = re.compile(r"L([0-9]{1,9})")

@@ -35,7 +35,8 @@ DECIMALS = 6
 
 ARC_NUMBERS = tuple(f.name for f in fields(Arc) if f.name not in ("from_id", "to_id"))
 LANDMARK_NUMBERS = tuple(f.name for f in fields(Landmark) if f.name not in ("id", "labels"))
-COUNTS = ("visits", "traversals")
+COUNTS = {"visits": 1, "traversals": 1, "closed": 0}
+"""Fields that are whole numbers, and the least that each can be."""
 ARC_OPTIONAL, LANDMARK_OPTIONAL = (
     frozenset(f.name for f in fields(kind) if f.default is not MISSING) for kind in (Arc, Landmark)
 )
@@ -212,8 +213,9 @@ def _numbers(
             damaged(path, f"{where}: {name} is {value!r}, expected a finite number")
         if name not in COUNTS:
             numbers[name] = float(value)
-        elif isinstance(value, int) and value >= 1:
+        elif isinstance(value, int) and value >= COUNTS[name]:
             numbers[name] = value
         else:
-            damaged(path, f"{where}: {name} is {value!r}, expected a count of 1 or more")
+            least = COUNTS[name]
+            damaged(path, f"{where}: {name} is {value!r}, expected a count of {least} or more")
     return numbers

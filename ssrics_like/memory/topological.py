@@ -93,6 +93,7 @@ class TopologicalMemory:
             path.mean,
             path.deviation,
             **self._geometry(from_id, to_id),
+            closed=estimates["closed"],
         )
 
     def _geometry(self, from_id: str, to_id: str) -> dict[str, float]:
@@ -200,7 +201,7 @@ class TopologicalMemory:
     def traverse(
         self, from_id: str, to_id: str, distance_m: float, bearing_rad: float, path_m: float
     ) -> Arc:
-        """Note that the robot went from one landmark straight to the next.
+        """Note that the robot went from one landmark straight to the next; that way is open.
 
         Parameters
         ----------
@@ -240,10 +241,35 @@ class TopologicalMemory:
                 distance=RunningMean(),
                 bearing=RunningDirection(),
                 path=RunningMean(),
+                closed=0,
             )
+        for ends in self._both_ways(from_id, to_id):
+            self._graph.edges[ends]["closed"] = 0
         estimates = self._graph.edges[from_id, to_id]
         estimates.update({key: estimates[key].with_value(value) for key, value in values.items()})
         return self.arc(from_id, to_id)
+
+    def joins(self, one: str, other: str) -> bool:
+        """Tell whether there is an arc between two landmarks, either way."""
+        return bool(self._both_ways(one, other))
+
+    def close(self, one: str, other: str) -> None:
+        """Note that the way between two landmarks was found shut; it stays so until it is gone.
+
+        Raises
+        ------
+        KeyError
+            If there is no arc between them, either way.
+        """
+        arcs = self._both_ways(one, other)
+        if not arcs:
+            raise KeyError(f"no arc between '{one}' and '{other}' in topological memory")
+        for ends in arcs:
+            self._graph.edges[ends]["closed"] += 1
+
+    def _both_ways(self, one: str, other: str) -> list[tuple[str, str]]:
+        """Return the ends of the arcs between two landmarks."""
+        return [e for e in ((one, other), (other, one)) if self._graph.has_edge(*e)]
 
     @classmethod
     def restored(cls, landmarks: Iterable[Landmark], arcs: Iterable[Arc]) -> TopologicalMemory:
@@ -267,6 +293,7 @@ class TopologicalMemory:
                 distance=RunningMean.of(n, arc.distance_m, arc.distance_sd_m),
                 bearing=RunningDirection.of(n, arc.bearing_rad, arc.bearing_sd_rad),
                 path=RunningMean.of(n, arc.path_m, arc.path_sd_m),
+                closed=arc.closed,
             )
             ends = arc.from_id, arc.to_id
             if arc.position_sd_m > 0.0 and memory.links.between(*ends) is None:

@@ -142,6 +142,26 @@ class Whereabouts:
         self._cases: list[_Case] = []
         self._doubts = 0
 
+    @property
+    def known(self) -> Hypothesis | None:
+        """Where the robot most probably has been last; None while it is lost."""
+        likeliest = self.hypotheses[0] if self.hypotheses else ANYWHERE
+        return likeliest if likeliest.landmark is not None and likeliest.met >= ENOUGH else None
+
+    def place_of(self, landmark: str) -> Link | None:
+        """Tell where a landmark most probably is, in the frame of path integration.
+
+        Returns
+        -------
+        Link or None
+            None while the robot is lost, or if nothing leads from there to the landmark.
+        """
+        known = self.known
+        if known is None or known.landmark is None:
+            return None
+        link = self._links.seen_from(known.landmark).get(landmark)
+        return None if link is None else known.fix.and_then(link)
+
     def lose(self) -> None:
         """Give up all hypotheses: the robot may be anywhere."""
         self.hypotheses = (ANYWHERE,)

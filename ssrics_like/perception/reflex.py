@@ -157,6 +157,7 @@ class PerceptionBuffer:
         self._laser: LaserScan | None = None
         self._sectors: SectorClassifier | None = None
         self._newest: Observation | None = None
+        self._here: Pose | None = None
         self._travelled_m = self._turned_rad = 0.0
 
     @property
@@ -184,6 +185,16 @@ class PerceptionBuffer:
         """Novel intervals that follow one that is not, or the beginning."""
         return self._watch.onsets
 
+    @property
+    def here(self) -> Pose | None:
+        """Where the laser is now by path integration, as `Reflex.place`; None at the beginning."""
+        return self._here
+
+    @property
+    def carried(self) -> int:
+        """How often the robot has found itself suddenly elsewhere."""
+        return 0 if self._egomotion is None else self._egomotion.carried
+
     def update(self, observation: Observation) -> list[Reflex]:
         """Take one observation; return the reflexes that it fires, mostly none.
 
@@ -210,8 +221,10 @@ class PerceptionBuffer:
             here = self._egomotion.update(
                 here, observation.scan.bearings_rad, observation.scan.ranges_m
             )
-        carried = 0 if self._egomotion is None else self._egomotion.carried
-        sensed = Sensed(observation, ranges_m, self._travelled_m, here, self._turned_rad, carried)
+        self._here = here
+        sensed = Sensed(
+            observation, ranges_m, self._travelled_m, here, self._turned_rad, self.carried
+        )
         found = (
             self._watch.update(sensed, ranges_m)
             if self._sights is None

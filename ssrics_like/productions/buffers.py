@@ -16,8 +16,6 @@ from pyactr import buffers, chunks, goals, utilities
 from ssrics_like.productions.interface import (
     BufferChunk,
     DeclarativeModule,
-    LandmarkModule,
-    MarkRequest,
     SlotTest,
 )
 
@@ -123,8 +121,8 @@ class _ModuleBuffer(buffers.Buffer):
         return (inquiry == "full") == bool(len(self))
 
 
-class OrientingBuffer(_ModuleBuffer):
-    """Holds the reflex that perception fired last.
+class PushedBuffer(_ModuleBuffer):
+    """Holds what was put there from outside last.
 
     Attributes
     ----------
@@ -138,6 +136,10 @@ class OrientingBuffer(_ModuleBuffer):
         """Set the buffer's chunk, which nobody has attended to yet."""
         super().put(chunk)
         self.attended = False
+
+
+class OrientingBuffer(PushedBuffer):
+    """Holds the reflex that perception fired last."""
 
     def test(self, state: str, inquiry: str) -> bool:
         """Answer ``?orienting> novelty_above x`` too; an empty buffer answers no."""
@@ -202,22 +204,29 @@ class RetrievalBuffer(_ModuleBuffer):
         return self.types.build(result.chunk.chunk_type, result.chunk.slots), result.latency_s
 
 
-class LandmarkBuffer(_ModuleBuffer):
-    """Sends decisions to the landmark module.
+class AskedBuffer(PushedBuffer):
+    """Sends requests to a module, and holds the chunk that it answers with.
 
-    Holds the chunk of a new landmark, if the rule set knows the type ``landmark``.
+    A chunk of a type that the rule set does not know, or none, leaves the buffer empty.
+
+    Parameters
+    ----------
+    types : ChunkTypes
+        Of the rule set.
+    harvest : callable or None
+        Takes cleared chunks.
+    ask : callable
+        From the slots of a request and its time to the answer.
     """
 
     def __init__(
         self,
         types: ChunkTypes,
         harvest: Harvest | None,
-        module: LandmarkModule,
-        rule: Callable[[], str],
+        ask: Callable[[Mapping[str, str], float], BufferChunk | None],
     ) -> None:
         super().__init__(types, harvest)
-        self._module = module
-        self._rule = rule
+        self._ask = ask
 
     def retrieve(
         self,
@@ -228,15 +237,13 @@ class LandmarkBuffer(_ModuleBuffer):
         extra_tests: Any,
         model_parameters: Any,
     ) -> tuple[Any, float]:
-        """Carry a decision out (called by pyactr)."""
+        """Carry a request out (called by pyactr)."""
         self.clear(time)
         slots = {
             slot: str(utilities.check_bound_vars(actrvariables, value).values)
             for slot, value in otherchunk.removeunused()
         }
-        made = self._module.mark(
-            MarkRequest(slots["outcome"], slots["event"], slots.get("landmark"), self._rule(), time)
-        )
+        made = self._ask(slots, time)
         if made is None or made.chunk_type not in self.types:
             return None, 0.0
         self._name = made.name

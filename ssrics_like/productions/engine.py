@@ -10,6 +10,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from importlib.metadata import version
 from typing import Any
 
@@ -20,11 +21,15 @@ from ssrics_like.productions.interface import (
     BufferChunk,
     DeclarativeModule,
     LandmarkModule,
+    MarkRequest,
+    StepRequest,
     TraceEvent,
+    WayModule,
 )
 from ssrics_like.productions.rules import Rule, Rulebook
 from ssrics_like.productions.syntax import Clause
 from ssrics_like.productions.tracing import Tracer
+from ssrics_like.productions.vocabulary import PUSHED, STEP_SLOTS
 
 # pyactr's source has escapes that newer Pythons warn of, and it warns of interrupted requests,
 # which the trace shows; neither is the user's concern.
@@ -79,6 +84,8 @@ class Engine:
         Answers ``+retrieval>`` and takes in cleared chunks.
     landmarks : LandmarkModule
         Answers ``+landmark>``.
+    way : WayModule, optional
+        Answers ``+way>``; without it a rule that asks raises EngineError.
     seed : int
         For utility noise.
     trace : callable
@@ -98,6 +105,7 @@ class Engine:
         rulebook: Rulebook,
         memory: DeclarativeModule,
         landmarks: LandmarkModule,
+        way: WayModule | None = None,
         *,
         seed: int = 0,
         trace: Callable[[TraceEvent], None] = lambda _: None,
@@ -117,7 +125,7 @@ class Engine:
             utility_noise=rulebook.parameters.utility_noise,
             **(stock or {}),
         )
-        self._buffers = self._wire(model, memory, landmarks, is_stock=stock is not None)
+        self._buffers = self._wire(model, memory, landmarks, way, is_stock=stock is not None)
         for rule in rulebook.rules:
             if stock is None:
                 model.productions.update({rule.name: _compiled(rule, self._types)})
@@ -132,7 +140,13 @@ class Engine:
         self._tracer.emit(0.0, "goal", "set-buffer-chunk", "g")
 
     def _wire(
-        self, model: Any, memory: DeclarativeModule, landmarks: LandmarkModule, *, is_stock: bool
+        self,
+        model: Any,
+        memory: DeclarativeModule,
+        landmarks: LandmarkModule,
+        way: WayModule | None,
+        *,
+        is_stock: bool,
     ) -> dict[str, Any]:
         """Put the model's buffers in place and the first goal into its buffer."""
         kept, types = self.rulebook.harvest, self._types
@@ -143,9 +157,16 @@ class Engine:
 
         made: dict[str, Any] = {
             "orienting": buffers.OrientingBuffer(types, harvest("orienting")),
-            "landmark": buffers.LandmarkBuffer(
-                types, harvest("landmark"), landmarks, lambda: self._fired
+            "landmark": buffers.AskedBuffer(
+                types,
+                harvest("landmark"),
+                lambda slots, t_s: landmarks.mark(
+                    MarkRequest(
+                        slots["outcome"], slots["event"], slots.get("landmark"), self._fired, t_s
+                    )
+                ),
             ),
+            "way": buffers.AskedBuffer(types, harvest("way"), partial(self._step, way)),
         }
         if is_stock:
             for name, slots_of_type in self.rulebook.chunk_types.items():
@@ -181,7 +202,7 @@ class Engine:
         Parameters
         ----------
         buffer : str
-            ``orienting``.
+            ``orienting`` or ``way``.
         chunk : BufferChunk
             The chunk.
         t_s : float
@@ -278,8 +299,9 @@ class Engine:
             self._fired = event.action.removeprefix("RULE FIRED: ")
             self.firings += 1
             tests = self._rules[self._fired].text.tests
-            if any(test.sign == "=" and test.buffer == "orienting" for test in tests):
-                self._buffers["orienting"].attended = True
+            for buffer in PUSHED:
+                if any(test.sign == "=" and test.buffer == buffer for test in tests):
+                    self._buffers[buffer].attended = True
         self._tracer.translate(float(event.time), event.proc, event.action)
 
     def _content(self, buffer: str) -> BufferChunk | None:
@@ -287,6 +309,15 @@ class Engine:
         for chunk in holder if holder is not None else ():
             return self._types.read(chunk)
         return None
+
+    def _step(
+        self, way: WayModule | None, slots: Mapping[str, str], t_s: float
+    ) -> BufferChunk | None:
+        """Have the robot do what a rule asks for."""
+        if way is None:
+            raise EngineError("asks for a way, but nothing that could go there is joined to it")
+        act, to, outcome, reason = (slots.get(slot, "") for slot in STEP_SLOTS)
+        return way.step(StepRequest(act, to, outcome, reason, self._fired, t_s))
 
     def _sources(self) -> dict[str, tuple[str, ...]]:
         """Return the values in the goal and imaginal chunks: sources of spreading activation."""

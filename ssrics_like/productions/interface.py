@@ -106,6 +106,39 @@ class LandmarkModule(Protocol):
         """Carry out a decision; the chunk of a new landmark goes into the buffer."""
 
 
+@dataclass(frozen=True)
+class StepRequest:
+    """A ``+way>`` request: what a rule has the robot do next.
+
+    Attributes
+    ----------
+    act : str
+        One of ``vocabulary.STEP_ACTS``.
+    to : str
+        The landmark that it is about; empty where the act needs none.
+    outcome, reason : str
+        How the errand ended, for the act ``end``.
+    rule : str
+        The production that fired.
+    t_s : float
+        When it fired.
+    """
+
+    act: str
+    to: str
+    outcome: str
+    reason: str
+    rule: str
+    t_s: float
+
+
+class WayModule(Protocol):
+    """The module behind the way buffer."""
+
+    def step(self, request: StepRequest) -> BufferChunk:
+        """Carry out a step; return what has come of it, or that it has begun."""
+
+
 @dataclass(frozen=True, slots=True)
 class TraceEvent:
     """One event of one module, in ACT-R's vocabulary.

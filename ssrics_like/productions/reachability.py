@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ssrics_like.errors import nearest
-from ssrics_like.productions.vocabulary import BUFFERS
+from ssrics_like.productions.vocabulary import PUSHED
 
 if TYPE_CHECKING:
     from ssrics_like.productions.rules import Rule, Rulebook
@@ -22,7 +22,7 @@ ANY = "*"
 def unreachable(book: Rulebook) -> list[tuple[Rule, str]]:
     """Return the rules that no chain of other rules can lead to, and why."""
     goal = {slot: {value} for slot, value in book.goal.items() if slot != "isa"}
-    filled = {name for name, kind in BUFFERS.items() if not kind.requests} | {"g"}
+    filled = {*PUSHED, "g"}
     waiting = list(book.rules)
     while True:
         ready = [rule for rule in waiting if _obstacle(rule, goal, filled) is None]

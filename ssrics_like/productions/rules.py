@@ -87,3 +87,8 @@ class Rulebook:
     harvest: tuple[str, ...]
     parameters: EngineParameters
     rules: tuple[Rule, ...]
+
+    @property
+    def leads(self) -> bool:
+        """Whether any rule attends to the way buffer."""
+        return any(clause.buffer == "way" for rule in self.rules for clause in rule.text.tests)

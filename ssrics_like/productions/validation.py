@@ -8,13 +8,21 @@ matches, an unknown slot silently widens the chunk type.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ssrics_like.errors import choices, nearest
 from ssrics_like.productions.reachability import unreachable
 from ssrics_like.productions.syntax import Clause, Pair
-from ssrics_like.productions.vocabulary import BUFFERS, FIXED_TYPES, OUTCOMES, QUERIES
+from ssrics_like.productions.vocabulary import (
+    BUFFERS,
+    FIXED_TYPES,
+    OUTCOMES,
+    QUERIES,
+    STEP_ACTS,
+    STEP_OUTCOMES,
+    WAY_EVENTS,
+)
 
 if TYPE_CHECKING:
     from ssrics_like.productions.rules import Rule, Rulebook
@@ -130,6 +138,8 @@ def _of_a_clause(book: Rulebook, clause: Clause) -> Iterator[Problem]:
     for pair in clause.pairs:
         if pair.slot not in slots:
             yield pair.line, f"{_unknown('slot', pair.slot, slots)} of '{clause.chunk_type}'"
+        elif (clause.chunk_type, pair.slot) == ("way", "event") and not pair.variable:
+            yield from _of_a_word({"event": pair}, "event", WAY_EVENTS)
 
 
 def _of_a_query(pair: Pair, numeric: tuple[str, ...]) -> Iterator[Problem]:
@@ -164,17 +174,35 @@ def _of_an_action(clause: Clause, tested: set[str]) -> Iterator[Problem]:
         for pair in clause.pairs:
             if pair.negated:
                 yield pair.line, f"'{pair.slot}': only a retrieval request can exclude a value"
-    if clause.buffer == "landmark" and clause.sign == "+":
-        given = {pair.slot: pair for pair in clause.pairs}
+    if clause.sign == "+":
+        yield from _of_a_request(clause)
+
+
+def _of_a_request(clause: Clause) -> Iterator[Problem]:
+    """Check what is asked of the landmark module, or of the way module."""
+    given = {pair.slot: pair for pair in clause.pairs}
+    if clause.buffer == "landmark":
+        yield from _of_a_word(given, "outcome", OUTCOMES)
         outcome = given.get("outcome")
-        needed = ["outcome", "event"]
-        if outcome and outcome.word == "recognised":
-            needed.append("landmark")
-        for slot in needed:
-            if slot not in given:
-                yield clause.line, f"'{clause}': slot '{slot}' is missing"
-        if outcome and (outcome.variable or outcome.word not in OUTCOMES):
-            yield outcome.line, _unknown("outcome", outcome.word, OUTCOMES)
+        recognised = outcome is not None and outcome.word == "recognised"
+        needed = ["outcome", "event", *(["landmark"] if recognised else [])]
+    elif clause.buffer == "way":
+        yield from _of_a_word(given, "act", STEP_ACTS)
+        yield from _of_a_word(given, "outcome", STEP_OUTCOMES)
+        act = given.get("act")
+        needed = ["act", *STEP_ACTS.get(act.word if act else "", ())]
+    else:
+        return
+    for slot in needed:
+        if slot not in given:
+            yield clause.line, f"'{clause}': slot '{slot}' is missing"
+
+
+def _of_a_word(given: Mapping[str, Pair], slot: str, known: Collection[str]) -> Iterator[Problem]:
+    """Check a slot that must hold one of a few words."""
+    pair = given.get(slot)
+    if pair is not None and (pair.variable or pair.word not in known):
+        yield pair.line, _unknown(slot, pair.word, known)
 
 
 def _unknown(what: str, word: str, known: object) -> str:

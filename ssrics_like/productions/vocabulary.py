@@ -41,7 +41,11 @@ BUFFERS = {
     ),
     "imaginal": BufferKind("a chunk under construction, 0.2 s", modifies=True),
     "landmark": BufferKind("decisions: marks a place, and holds the chunk of a new landmark"),
+    "way": BufferKind("leading the way: takes steps, and holds what has come of them"),
 }
+
+PUSHED = ("orienting", "way")
+"""Buffers that are filled from outside: by perception, and by what happens on the way."""
 
 QUERIES = {
     "state": ("free", "busy", "error"),
@@ -60,4 +64,49 @@ MARK_SLOTS = ("outcome", "event", "landmark")
 OUTCOMES = ("declared", "recognised", "unsure", "dismissed")
 """What a rule can decide about a reflex."""
 
-FIXED_TYPES = {"reflex": REFLEX_SLOTS, "landmark": LANDMARK_SLOTS, "mark": MARK_SLOTS}
+WAY_SLOTS = ("event", "errand", "goal", "at", "next", "reason")
+"""Slots of the chunk in the ``way`` buffer: how an errand goes."""
+
+WAY_EVENTS = {
+    "ordered": "there is an errand; the robot stands",
+    "chosen": "`goal` is the landmark to go to",
+    "planned": "`next` is the landmark that comes first on the way to `goal`",
+    "driving": "the robot drives to `next`",
+    "arrived": "the robot has come to `at`",
+    "blocked": "the way to `next` is shut, for the `reason` given",
+    "shut": "that is remembered",
+    "cut-off": "no way leads to `goal` that is not known to be shut",
+    "lost": "the robot does not know where it is",
+    "searching": "it looks about for landmarks that it knows",
+    "found": "it knows again where it is",
+    "nowhere": "it has looked everywhere and knows no better",
+    "nothing-left": "no landmark is left to go to; `reason` is left-out where some were skipped",
+    "unknown": "there is no landmark of the name in the errand",
+    "ended": "the errand is over",
+}
+"""What can have happened."""
+
+STEP_SLOTS = ("act", "to", "outcome", "reason")
+"""Slots of the request that a rule sends to the ``way`` buffer."""
+
+STEP_ACTS = {
+    "choose": (),
+    "plan": ("to",),
+    "drive": ("to",),
+    "shut": ("to",),
+    "skip": ("to",),
+    "search": (),
+    "end": ("outcome",),
+}
+"""What a rule can have the robot do -> the slots that this needs."""
+
+STEP_OUTCOMES = ("reached", "failed")
+"""How an errand can end."""
+
+FIXED_TYPES = {
+    "reflex": REFLEX_SLOTS,
+    "landmark": LANDMARK_SLOTS,
+    "mark": MARK_SLOTS,
+    "way": WAY_SLOTS,
+    "step": STEP_SLOTS,
+}

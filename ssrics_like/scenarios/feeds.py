@@ -17,6 +17,7 @@ from ssrics_like.world.buildings.furniture import furnish
 from ssrics_like.world.disturbances import Crowd, Disturbances, SlipSettings
 from ssrics_like.world.exploration import Exploration
 from ssrics_like.world.grid import GridMap
+from ssrics_like.world.leading import Guide, Lead
 from ssrics_like.world.navigation import Leg
 from ssrics_like.world.routes import Route, Wait
 from ssrics_like.world.simulation import Simulation, mapped_cell_m, mapped_solid
@@ -46,6 +47,9 @@ class Feed(Protocol):
     def progress(self) -> float:
         """Share that is done, a guess where it cannot be known."""
 
+    def be_led(self, guide: Guide) -> None:
+        """Let somebody lead where the journey says so; before the first observation."""
+
     def entry(self) -> dict[str, Any]:
         """Return what the manifest says of the run, besides what the recorder has seen."""
 
@@ -74,6 +78,9 @@ class LogFeed:
     def progress(self) -> float:
         """Share of the file that has been read."""
         return self._source.progress
+
+    def be_led(self, guide: Guide) -> None:
+        """Go on: a log cannot be led."""
 
     def entry(self) -> dict[str, Any]:
         """Say why the run ended."""
@@ -136,6 +143,12 @@ class DriveFeed:
         if self._exploring:
             return min(self.simulation.progress, 0.99)
         return self.simulation.t_s / self.simulation.time_limit_s
+
+    def be_led(self, guide: Guide) -> None:
+        """Set who leads on the legs ``goto``."""
+        for leg in self.simulation.navigator.legs:
+            if isinstance(leg, Lead):
+                leg.guide = guide
 
     def entry(self) -> dict[str, Any]:
         """Say why the run ended, what was seen and how far the robot drove."""
@@ -202,6 +215,8 @@ def open_source(resolved: Resolved) -> LogSource:
 def _leg(leg: LegSettings, plan: GridMap) -> Leg:
     if leg.wait_s is not None:
         return Wait(leg.wait_s)
+    if leg.goto is not None:
+        return Lead(leg.goto)
     if leg.waypoints is None:
         return Exploration()
     poses = [

@@ -124,6 +124,7 @@ def _through(
             retrieved=recorder.retrieved,
             remembered=None if remembered is None else remembered.memory,
         )
+        feed.be_led(model.wayfinder)
         for observation in itertools.chain([first], rest):
             recorder.decided_all(model.observe(observation))
             recorder.observed(observation, model.perception.novelty)

@@ -62,7 +62,7 @@ class Place:
         """Return everything that decides the drives, as plain values for the manifest."""
         start = self.building.grid.pose_in_map(self.start)
         journey = [leg.model_dump(exclude_none=True) for leg in self.settings.journey]
-        single = ("explore", "waypoints", "repeat", "legs", "robot", "start", "map")
+        single = ("explore", "waypoints", "goto", "repeat", "legs", "robot", "start", "map")
         return {
             "map": self.name,
             "robot": {"name": self.settings.robot, **self.robot.model_dump()},

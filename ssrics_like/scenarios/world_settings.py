@@ -6,9 +6,13 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
+from ssrics_like.errors import choices
 from ssrics_like.world.buildings.generator import BuildingSettings
 
 Seconds = Annotated[float, Field(ge=0.0)]
+Name = Annotated[str, Field(min_length=1)]
+LEGS = ("explore", "waypoints", "wait_s", "goto")
+"""What a leg of a journey can be."""
 
 
 class Strict(BaseModel):
@@ -57,6 +61,9 @@ class LegSettings(Strict):
         Places to pass, over the known floor plan: [x, y] or [x, y, heading] each.
     wait_s : float
         Stand still, seconds.
+    goto : str
+        An errand on which the model leads: the name of a landmark, home or visit-all. It needs
+        productions that lead, such as wayfinding.
     repeat : int
         How often the waypoints are driven.
     """
@@ -64,14 +71,15 @@ class LegSettings(Strict):
     explore: Literal["frontier"] | None = None
     waypoints: Annotated[list[PoseList], Field(min_length=1)] | None = None
     wait_s: Seconds | None = None
+    goto: Name | None = None
     repeat: Annotated[int, Field(ge=1, le=10_000)] = 1
 
     @model_validator(mode="after")
     def _one_thing(self) -> Self:
-        given = [n for n in ("explore", "waypoints", "wait_s") if getattr(self, n) is not None]
+        given = [n for n in LEGS if getattr(self, n) is not None]
         if len(given) != 1:
             said = " and ".join(given) or "none of them"
-            raise ValueError(f"a leg is explore, waypoints or wait_s, one of them; it has {said}")
+            raise ValueError(f"a leg is {choices(LEGS)}, one of them; it has {said}")
         if self.repeat != 1 and self.waypoints is None:
             raise ValueError(f"repeat goes with waypoints, this leg has {given[0]}")
         return self
@@ -187,7 +195,7 @@ class WorldSettings(Strict):
     start : list
         [x, y] or [x, y, heading], map frame; if left out, the free place with the most clearance,
         heading 0 in the grid.
-    explore, waypoints, repeat : as `LegSettings`
+    explore, waypoints, goto, repeat : as `LegSettings`
         The journey, if it has one leg.
     legs : list of LegSettings
         The journey, if it has several.
@@ -204,6 +212,7 @@ class WorldSettings(Strict):
     start: PoseList | None = None
     explore: Literal["frontier"] | None = None
     waypoints: Annotated[list[PoseList], Field(min_length=1)] | None = None
+    goto: Name | None = None
     repeat: Annotated[int, Field(ge=1, le=10_000)] = 1
     legs: Annotated[list[LegSettings], Field(min_length=1)] | None = None
     time_limit_s: Annotated[float, Field(gt=0.0, le=1e6)] = 7200.0
@@ -217,7 +226,8 @@ class WorldSettings(Strict):
     def _consistent(self) -> Self:
         if (self.map is None) == (self.building is None):
             raise ValueError("a world has either map or building")
-        journeys = [n for n in ("explore", "waypoints", "legs") if getattr(self, n) is not None]
+        kinds = ("explore", "waypoints", "goto", "legs")
+        journeys = [n for n in kinds if getattr(self, n) is not None]
         if len(journeys) > 1:
             raise ValueError(f"{' and '.join(journeys)} exclude each other; list them in legs")
         if self.repeat != 1 and self.waypoints is None:
@@ -231,4 +241,6 @@ class WorldSettings(Strict):
             return self.legs
         if self.waypoints is not None:
             return [LegSettings(waypoints=self.waypoints, repeat=self.repeat)]
+        if self.goto is not None:
+            return [LegSettings(goto=self.goto)]
         return [LegSettings(explore="frontier")]

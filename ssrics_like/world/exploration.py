@@ -22,7 +22,7 @@ from ssrics_like.world.occupancy import SQUEEZE, TIGHT
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ssrics_like.world.navigation import Navigator
+    from ssrics_like.world.navigation import Surveyor
 
 LEAST_M = 0.3  # a shorter frontier is a gap between beams or noise
 PEEK_M = 0.35  # from this near a frontier can be looked across
@@ -52,7 +52,7 @@ class Exploration:
         self._left = False
         self._waiting_s: float | None = None
 
-    def begin(self, navigator: Navigator, t_s: float) -> None:
+    def begin(self, navigator: Surveyor, t_s: float) -> None:
         """Make room for planning."""
         shape = navigator.explored.evidence.shape
         self._tried = np.zeros(shape, np.uint8)
@@ -61,7 +61,7 @@ class Exploration:
         self._parent = np.empty(shape, np.int32)
         self._chosen_s = self._checked_s = t_s
 
-    def next(self, navigator: Navigator, t_s: float, *, stuck: bool) -> Errand | None:
+    def next(self, navigator: Surveyor, t_s: float, *, stuck: bool) -> Errand | None:
         """Go on to the frontier, or choose another."""
         errand = navigator.errand
         if self._waiting_s is not None and t_s - self._checked_s < RETRY_S:
@@ -83,7 +83,7 @@ class Exploration:
                 return self._choose(navigator, t_s)
         return errand
 
-    def _set_aside(self, navigator: Navigator, t_s: float) -> Errand | None:
+    def _set_aside(self, navigator: Surveyor, t_s: float) -> Errand | None:
         """Leave the frontier for later: others come first."""
         assert self._target is not None
         evidence = navigator.explored.evidence
@@ -92,7 +92,7 @@ class Exploration:
         self.set_aside += 1
         return self._choose(navigator, t_s)
 
-    def _choose(self, navigator: Navigator, t_s: float) -> Errand | None:
+    def _choose(self, navigator: Surveyor, t_s: float) -> Errand | None:
         """Plan the way to the nearest frontier; where none leads to any, wait, give up in the end.
 
         What stands where it was free before may have gone again, unseen: the robot looks there
@@ -112,7 +112,7 @@ class Exploration:
                 return Errand()
         return errand
 
-    def _nearest(self, navigator: Navigator, t_s: float) -> Errand | None:
+    def _nearest(self, navigator: Surveyor, t_s: float) -> Errand | None:
         """Plan the way to the nearest frontier, those never tried before first.
 
         What was looked at in vain is looked at from as near as the body gets, then from anywhere.
@@ -147,6 +147,6 @@ class Exploration:
         self._target = None
         return None
 
-    def _is_frontier(self, navigator: Navigator, cell: tuple[int, int]) -> bool:
+    def _is_frontier(self, navigator: Surveyor, cell: tuple[int, int]) -> bool:
         evidence = navigator.explored.evidence
         return bool(evidence[cell] < 0 and frontier_kernels.borders_unknown(evidence, *cell))

@@ -80,6 +80,24 @@ class Leg(Protocol):
         """
 
 
+class Surveyor(Protocol):
+    """What exploring needs: a map of the robot's own, and where on it the robot is.
+
+    Attributes
+    ----------
+    explored, cell_m, errand, moved_away
+        As of `Navigator`.
+    """
+
+    explored: OccupancyGrid
+    cell_m: float
+    errand: Errand
+    moved_away: bool
+
+    def cell(self) -> tuple[int, int]:
+        """Return the row and column that the robot's centre is in."""
+
+
 class Navigator:
     """Leads a robot through the legs of its journey.
 
@@ -104,6 +122,10 @@ class Navigator:
         The floor plan that it was given, corrected by what it has seen; None until a leg needs it.
     pose : Pose
         Of its centre, grid frame.
+    scan : LaserScan
+        The latest.
+    robot : RobotProfile
+        The robot.
     errand : Errand
         What it is doing.
     free_m : float
@@ -120,10 +142,9 @@ class Navigator:
         self, legs: Sequence[Leg], robot: RobotProfile, shape: tuple[int, int], cell_m: float
     ) -> None:
         self.legs = list(legs)
-        self.radius_m = robot.radius_m
+        self.robot = robot
         self.cell_m = cell_m
-        self._shape, self._laser = shape, robot.laser
-        self.explored = self.new_map()
+        self.explored = new_map(robot, shape, cell_m)
         self.planned: OccupancyGrid | None = None
         self.known_cells = 0
         self.errand = Errand()
@@ -137,19 +158,6 @@ class Navigator:
         self._mapped_s = -math.inf
         self._moved_s = 0.0
         self._moved_from: Pose | None = None
-
-    def new_map(self) -> OccupancyGrid:
-        """Return an empty map that fits the robot and its laser."""
-        dropout = self._laser.dropout
-        chance = math.log(SELDOM) / math.log(dropout) if 0.0 < dropout < 1.0 else 0.0
-        return OccupancyGrid(
-            self._shape,
-            self.cell_m,
-            self.radius_m,
-            reach_m=min(REACH_M, self._laser.range_max_m),
-            # With many beams lost, only a long run of them means that there was nothing.
-            silent_run=max(SILENT_RUN, math.ceil(chance)),
-        )
 
     @property
     def notes(self) -> list[str]:
@@ -172,7 +180,7 @@ class Navigator:
         scan : LaserScan
             What it senses there.
         """
-        self.pose = pose
+        self.pose, self.scan = pose, scan
         arrived = self.errand.status == ARRIVED
         if arrived or t_s - self._mapped_s >= MAPPING_S - 1e-9:
             self._mapped_s = t_s
@@ -180,7 +188,7 @@ class Navigator:
             if self.planned is not None:
                 self.planned.take(scan, laser, self._directions)
         self.free_m = free_ahead(
-            scan.ranges_m, self._directions, self._laser_x_m, self.radius_m + SIDE_M
+            scan.ranges_m, self._directions, self._laser_x_m, self.robot.radius_m + SIDE_M
         )
         errand = None
         if self._leg >= 0 and not self.finished:
@@ -224,3 +232,17 @@ class Navigator:
         if stuck or self.errand.status == ARRIVED:
             self._moved_s = t_s  # it was told, or stands because it should
         return stuck
+
+
+def new_map(robot: RobotProfile, shape: tuple[int, int], cell_m: float) -> OccupancyGrid:
+    """Return an empty map that fits a robot and its laser."""
+    dropout = robot.laser.dropout
+    chance = math.log(SELDOM) / math.log(dropout) if 0.0 < dropout < 1.0 else 0.0
+    return OccupancyGrid(
+        shape,
+        cell_m,
+        robot.radius_m,
+        reach_m=min(REACH_M, robot.laser.range_max_m),
+        # With many beams lost, only a long run of them means that there was nothing.
+        silent_run=max(SILENT_RUN, math.ceil(chance)),
+    )

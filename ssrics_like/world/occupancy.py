@@ -9,7 +9,7 @@ to an obstacle for the body are counted as the map grows, so that planning need 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,7 +25,9 @@ SILENT_RUN = 5  # beams that no laser loses side by side, unless it loses many
 SQUEEZE_M = 0.05  # nearer than this to a wall it goes only where there is no other way,
 BERTH_M = 0.25  # and nearer than this only where the way around is long
 BLOCKED, SQUEEZE, TIGHT, OPEN = 255, 10, 3, 1
-"""What it costs to pass a cell: see `OccupancyGrid.costs`; 0 cannot be passed."""
+UNSEEN = 2
+"""What it costs to pass a cell: see `OccupancyGrid.costs`; 0 cannot be passed. UNSEEN is for a
+robot that goes where it has not looked yet."""
 
 
 class OccupancyGrid:
@@ -61,12 +63,16 @@ class OccupancyGrid:
     ) -> None:
         self.cell_m = cell_m
         self._reach_m, self._silent_run = reach_m, silent_run
-        self.evidence = np.zeros(shape, np.int8)
-        self._history = np.zeros(shape, np.uint8)
-        self._counts = np.zeros((3, *shape), np.int16)
         self._discs = _offsets(
             [radius_m / cell_m, (radius_m + SQUEEZE_M) / cell_m, (radius_m + BERTH_M) / cell_m]
         )
+        self._clear(shape)
+
+    def _clear(self, shape: tuple[int, ...]) -> None:
+        """Begin with nothing known, and nowhere to go outside."""
+        self.evidence = np.zeros(shape, np.int8)
+        self._history = np.zeros(shape, np.uint8)
+        self._counts = np.zeros((3, *shape), np.int16)
         occupancy_kernels.count_outside(self._counts, self._discs)
 
     def take(self, scan: LaserScan, pose: Pose, directions: NDArray[np.float64]) -> int:
@@ -114,20 +120,45 @@ class OccupancyGrid:
         """Tell whether the body can pass a way, shape (n, 2), from its place `at` on."""
         return bool(way_kernels.is_open(self._counts[0], way, at, self.cell_m))
 
-    def costs(self) -> NDArray[np.uint8]:
+    def shift(self, rows: int, columns: int) -> None:
+        """Let the grid begin so many cells later; what it covered and still covers stays known."""
+        evidence, history = self.evidence, self._history
+        self._clear(evidence.shape)
+        kept = _overlap(evidence, rows, columns)
+        _overlap(self.evidence, -rows, -columns)[:] = np.minimum(kept, 0)
+        _overlap(self._history, -rows, -columns)[:] = _overlap(history, rows, columns)
+        top, left = max(-rows, 0), max(-columns, 0)
+        for row, column in np.argwhere(kept > 0).tolist():
+            self._add(top + row, left + column, int(kept[row, column]))
+
+    def costs(self, unknown: int = 0) -> NDArray[np.uint8]:
         """Return what it costs to pass each cell.
+
+        Parameters
+        ----------
+        unknown : int
+            What it costs to pass a cell that was never seen; 0 for what cannot be passed.
 
         Returns
         -------
         ndarray, shape (rows, columns), uint8
-            0 where a cell is not known to be free; BLOCKED where the body would touch something,
-            which only a robot that is there already may pass; SQUEEZE and TIGHT close to an
-            obstacle; OPEN.
+            0 where a cell is occupied, `unknown` where it was never seen; BLOCKED where the body
+            would touch something, which only a robot that is there already may pass; SQUEEZE and
+            TIGHT close to an obstacle; OPEN.
         """
         costs = np.empty(self.evidence.shape, np.uint8)
         prices = (BLOCKED, SQUEEZE, TIGHT, OPEN)
-        occupancy_kernels.passing_costs(self.evidence, self._counts, prices, costs)
+        occupancy_kernels.passing_costs(self.evidence, self._counts, prices, unknown, costs)
         return costs
+
+
+def _overlap(cells: NDArray[Any], rows: int, columns: int) -> NDArray[Any]:
+    """Return the part of a grid that one which begins so many cells later covers too."""
+    height, width = cells.shape
+    return cells[
+        max(rows, 0) : height + min(rows, 0),
+        max(columns, 0) : width + min(columns, 0),
+    ]
 
 
 def _offsets(radii: list[float]) -> NDArray[np.int32]:

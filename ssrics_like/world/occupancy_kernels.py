@@ -202,18 +202,22 @@ def passing_costs(
     evidence: NDArray[np.int8],
     counts: NDArray[np.int16],
     prices: tuple[int, int, int, int],
+    unknown: int,
     costs: NDArray[np.uint8],
 ) -> None:
     """Write what it costs to pass each cell.
 
     `prices` are those of a cell with something within the first, second and third radius of
-    `counts`, and of one without; a cell that is not known to be free gets 0.
+    `counts`, and of one without; an occupied cell gets 0, and one never seen `unknown`, unless
+    something is within the first radius.
     """
     rows, columns = evidence.shape
     for r in range(rows):
         for c in range(columns):
-            if evidence[r, c] >= 0:
+            if evidence[r, c] > 0:
                 costs[r, c] = 0
+            elif evidence[r, c] == 0:
+                costs[r, c] = unknown if counts[0, r, c] == 0 else 0
             elif counts[2, r, c] == 0:
                 costs[r, c] = prices[3]
             elif counts[0, r, c] > 0:

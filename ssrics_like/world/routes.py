@@ -9,7 +9,7 @@ import numpy as np
 
 from ssrics_like.world import way_kernels
 from ssrics_like.world.motion_kernels import ARRIVED
-from ssrics_like.world.navigation import Errand
+from ssrics_like.world.navigation import Errand, new_map
 from ssrics_like.world.occupancy import SQUEEZE
 
 if TYPE_CHECKING:
@@ -63,7 +63,8 @@ class Route:
     def begin(self, navigator: Navigator, t_s: float) -> None:
         """Give the robot the floor plan, once."""
         if navigator.planned is None:
-            grid = navigator.new_map()
+            shape = navigator.explored.evidence.shape
+            grid = new_map(navigator.robot, (shape[0], shape[1]), navigator.cell_m)
             grid.know(self._solid)
             navigator.planned = grid
         navigator.errand = Errand(status=ARRIVED)
