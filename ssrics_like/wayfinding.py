@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ssrics_like.errors import EngineError, nearest
 from ssrics_like.memory.routes import Route, shortest_routes
@@ -88,6 +88,13 @@ class Errand:
     searches: int = 0
     outcome: str = ""
     reason: str = ""
+
+    def as_data(self) -> dict[str, Any]:
+        """Return it as plain values, for the manifest."""
+        return {
+            key: list(value) if isinstance(value, tuple) else value
+            for key, value in vars(self).items()
+        }
 
 
 @dataclass

@@ -18,7 +18,8 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
     "sources": {"errors", "perception"},
     "modules": {"errors", "decision", *MIND},
     "cues": {"errors", "atomic", "perception"},
-    "model": {"errors", "cues", "library", "decision", "modules", *MIND},
+    "wayfinding": {"errors", "modules", "poses", *MIND},
+    "model": {"errors", "cues", "library", "decision", "modules", "wayfinding", *MIND},
     "results": {"errors", "atomic", "decision", "model", *MIND},
     "comparison": {"errors", "results", "world", "maps"},
     "bench": {
@@ -45,6 +46,7 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
         "settings",
         "cues",
         "model",
+        "wayfinding",
         "results",
         "sources",
         "world",

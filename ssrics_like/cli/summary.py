@@ -18,6 +18,7 @@ WIDTH = 200
 def summary(manifest: dict[str, Any]) -> list[str]:
     """Say in a few lines what the runs gave."""
     from ssrics_like.results.counts import counted
+    from ssrics_like.results.errands import errand_text
 
     lines = []
     for entry in manifest["runs"]:
@@ -28,6 +29,7 @@ def summary(manifest: dict[str, Any]) -> list[str]:
             f"{entry['path_length_m']:.1f} m, {seen}"
             f"{counted(entry['landmarks'], 'landmark')} ({decided})"
         )
+        lines += [f"  {errand_text(errand)}" for errand in entry.get("errands", ())]
     lines += [f"warning: {text}" for text in manifest["warnings"]]
     return lines
 

@@ -130,6 +130,8 @@ def _through(
             recorder.observed(observation, model.perception.novelty)
         recorder.decided_all(model.finish())
         entry = {**recorder.finish(model, part.run_id), **feed.entry(), "seed": seed}
+    if model.wayfinder.errands:
+        entry["errands"] = [errand.as_data() for errand in model.wayfinder.errands]
     if remembered is not None:
         entry["memory_from"] = remembered.as_data()
     return {**entry, "warnings": [*feed.warnings(), *_warnings(resolved, entry)]}

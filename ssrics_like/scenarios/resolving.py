@@ -26,6 +26,7 @@ from ssrics_like.scenarios.problems import Problems
 from ssrics_like.scenarios.remembering import Recollection, recollect
 from ssrics_like.scenarios.schema import MODULES, Scenario, at, read_scenario
 from ssrics_like.scenarios.world_settings import Strict
+from ssrics_like.wayfinding import ALL, HOME
 
 
 @dataclass(frozen=True)
@@ -213,6 +214,7 @@ def resolve(
             robot = changed(robot, "robot")
             place = place_of(scenario.world, robot, start, said_at)
             _check_published(scenario, place, said_at)
+            _check_errands(scenario, book, recollection, said_at)
     with problems.gathered():
         if scenario.humans is not None:
             load_choices(start["humans"] / scenario.humans)
@@ -246,6 +248,45 @@ def _check_published(
                 f"the map has no location '{name}'{nearest(name, known)}; it has {choices(known)}"
             )
             problems.append(f"{at_file}: published.found: {said}" if at_file else said)
+    if problems:
+        raise SettingsError("\n".join(problems))
+
+
+def _check_errands(
+    scenario: Scenario,
+    book: Rulebook,
+    recollection: Recollection | None,
+    where: Callable[[settings.Key], str],
+) -> None:
+    """Complain of errands that no rule could lead on, or to landmarks that cannot be known."""
+    world = scenario.world
+    assert world is not None
+    problems = []
+    explored = False
+    for i, leg in enumerate(world.journey):
+        explored = explored or leg.goto is None
+        if leg.goto is None:
+            continue
+        key: settings.Key = ("world", "legs", i, "goto") if world.legs else ("world", "goto")
+        place = where(key)
+        before = (
+            f"{place}: {'.'.join(map(str, key))}: " if place else f"{'.'.join(map(str, key))}: "
+        )
+        if not book.leads:
+            problems.append(
+                f"{before}'{leg.goto}': no rule of {book.path.name} attends to the buffer 'way'; "
+                "expected productions that lead, such as wayfinding"
+            )
+        elif leg.goto not in (HOME, ALL) and not explored:
+            memories = recollection.by_run.values() if recollection else ()
+            known = {mark.id for each in memories for mark in each.memory.landmarks}
+            if leg.goto not in known:
+                hint = (
+                    nearest(leg.goto, {*known, HOME, ALL})
+                    if known
+                    else ("; nothing was explored before, and there is no memory_from")
+                )
+                problems.append(f"{before}memory has no landmark '{leg.goto}'{hint}")
     if problems:
         raise SettingsError("\n".join(problems))
 

@@ -206,6 +206,8 @@ class _Work:
 def drive_key(resolved: Resolved) -> str:
     """Return a text that is equal for scenarios whose observations are equal."""
     if resolved.place is not None:
+        if any(leg.goto for leg in resolved.place.settings.journey):  # where to is the model's say
+            return f"led {id(resolved)}"
         return f"{resolved.place.as_data()} {resolved.place.sha256} {resolved.scenario.seed}"
     return f"{resolved.log} {resolved.scenario.source}"
 
