@@ -34,9 +34,12 @@ FEW = 20
 """Fewer points near lines say nothing."""
 SHARE = 0.4
 """Where a smaller share of the points lies near lines, scans do not fit: then odometry counts."""
-ELSEWHERE = 0.3
-"""A smaller share yet is another place: the robot was carried. `benchmarks/bench_egomotion.py` says
-how often that is noticed, and how often without reason."""
+ELSEWHERE = 0.6
+"""Where fewer of the readings lie about where those of the scan just before do, the robot was
+carried. `benchmarks/bench_egomotion.py` says how often that is noticed, and how often without
+reason."""
+ONWARD_M, ONWARD_RAD = 0.5, 0.5
+"""Scans farther apart than this cannot be compared so."""
 FAR_M, FAR_RAD = 0.15, 0.15
 """A match farther from what odometry says is a mistake."""
 STILL_M, STILL_RAD = 1e-4, 1e-4
@@ -64,6 +67,7 @@ class Egomotion:
         self._key = Pose(0.0, 0.0, 0.0)
         self._lines = np.empty((0, 4))
         self._beams = (0.0, 1.0)
+        self._last = np.empty(0)
         self._way_m = self._turn_rad = 0.0
 
     def update(
@@ -96,8 +100,13 @@ class Egomotion:
         self._turn_rad += turn_rad
         if way_m < STILL_M and turn_rad < STILL_RAD:
             return self.pose
+        usable = _usable(ranges_m)
+        points = _points(bearings_rad, usable)
+        if max(way_m / ONWARD_M, turn_rad / ONWARD_RAD) < 1.0 and self._is_elsewhere(points, step):
+            self.carried += 1
+        self._last = usable
         guess = self.pose.onward(step).seen_from(self._key)
-        found = self._matched(guess, bearings_rad, ranges_m)
+        found = self._matched(guess, points)
         seen = guess if found is None else found
         self.pose = self._key.onward(seen)
         far = math.hypot(seen.x_m, seen.y_m) > KEY_M or abs(seen.theta_rad) > KEY_RAD
@@ -105,39 +114,48 @@ class Egomotion:
             self._keep(bearings_rad, ranges_m)
         return self.pose
 
+    def _is_elsewhere(self, points: NDArray[np.float64], step: Pose) -> bool:
+        """Tell whether this scan cannot have been taken a step from the one before."""
+        agree, compared = kernels.agreeing(
+            self._last, *self._beams, points, (step.x_m, step.y_m, step.theta_rad)
+        )
+        return bool(compared >= FEW and agree < ELSEWHERE * compared)
+
     def _keep(self, bearings_rad: NDArray[np.float64], ranges_m: NDArray[np.float64]) -> None:
         """Make this scan the key scan."""
         beams = len(bearings_rad)
         self._key = self.pose
         self._lines = np.empty((beams, 4))
-        kernels.fit_lines(bearings_rad, _usable(ranges_m), self._lines)
+        self._last = _usable(ranges_m)
+        kernels.fit_lines(bearings_rad, self._last, self._lines)
         step_rad = float(bearings_rad[-1] - bearings_rad[0]) / max(beams - 1, 1)
         self._beams = 0.5 * float(bearings_rad[0] + bearings_rad[-1]), step_rad or 1.0
         self._way_m = self._turn_rad = 0.0
 
-    def _matched(
-        self, guess: Pose, bearings_rad: NDArray[np.float64], ranges_m: NDArray[np.float64]
-    ) -> Pose | None:
+    def _matched(self, guess: Pose, points: NDArray[np.float64]) -> Pose | None:
         """Return the pose in the frame of the key scan; None where the scans do not fit."""
-        ranges_m = _usable(ranges_m)
-        seen = np.flatnonzero(np.isfinite(ranges_m))
-        seen = seen[:: max(math.ceil(len(seen) / POINTS), 1)]
-        points = ranges_m[seen, None] * np.column_stack(
-            [np.cos(bearings_rad[seen]), np.sin(bearings_rad[seen])]
-        )
         x_m, y_m, theta_rad, near = kernels.match(
             self._lines, *self._beams, points, (guess.x_m, guess.y_m, guess.theta_rad),
             ODOMETRY_M * self._way_m + FLOOR_M,
             ODOMETRY_RAD * self._turn_rad + FLOOR_RAD + SWERVE_RAD * math.sqrt(self._way_m),
             ROUNDS,
         )  # fmt: skip
-        if len(points) >= FEW and near < ELSEWHERE * len(points):
-            self.carried += 1
         if near < max(FEW, SHARE * len(points)):
             return None
         found = Pose(x_m, y_m, theta_rad)
         turned = abs(math.remainder(theta_rad - guess.theta_rad, math.tau))
         return found if guess.distance_m(found) < FAR_M and turned < FAR_RAD else None
+
+
+def _points(
+    bearings_rad: NDArray[np.float64], ranges_m: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return where readings met something, frame of the laser, shape (points, 2)."""
+    seen = np.flatnonzero(np.isfinite(ranges_m))
+    seen = seen[:: max(math.ceil(len(seen) / POINTS), 1)]
+    directions = np.column_stack([np.cos(bearings_rad[seen]), np.sin(bearings_rad[seen])])
+    points: NDArray[np.float64] = ranges_m[seen, None] * directions
+    return points
 
 
 def _usable(ranges_m: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -22,6 +22,7 @@ CAPTURE_M, NEAREST_M = 0.4, 0.15  # a point belongs to a line so near: at first,
 CAPTURING = 3  # rounds at first
 WINDOW = 40  # beams to either side among which the nearest line is sought
 SCATTER_M = 0.03  # of points about their line: range noise, unevenness
+ABOUT_M, ABOUT, ASIDE = 0.15, 0.05, 2  # readings of the same thing: so far apart, so many beams
 ENOUGH_M, ENOUGH_RAD = 2e-4, 1e-4  # a smaller correction ends the search
 
 
@@ -169,3 +170,51 @@ def match(
         if round_ >= CAPTURING and max(abs(dx), abs(dy)) < ENOUGH_M and abs(turn) < ENOUGH_RAD:
             break
     return x, y, heading, near
+
+
+@compiled
+def agreeing(
+    ranges_m: NDArray[np.float64],
+    middle_rad: float,
+    step_rad: float,
+    points: NDArray[np.float64],
+    pose: tuple[float, float, float],
+) -> tuple[int, int]:
+    """Count how many points of a scan lie about where an earlier scan met something.
+
+    Parameters
+    ----------
+    ranges_m : ndarray, shape (beams,)
+        The earlier scan; what is not finite met nothing.
+    middle_rad, step_rad : float
+        Bearing of the middle of its beams, and the step between two.
+    points : ndarray, shape (points, 2)
+        What the later scan met, metres, frame of its laser.
+    pose : tuple of float
+        x, y and heading from where it was taken, in the frame of the earlier one.
+
+    Returns
+    -------
+    tuple of int
+        How many points agree, and how many lie where the earlier scan met something.
+    """
+    beams = len(ranges_m)
+    cos, sin = math.cos(pose[2]), math.sin(pose[2])
+    agree = compared = 0
+    for i in range(len(points)):
+        x = cos * points[i, 0] - sin * points[i, 1] + pose[0]
+        y = sin * points[i, 0] + cos * points[i, 1] + pose[1]
+        turn = math.atan2(y, x) - middle_rad
+        turn -= 2.0 * math.pi * round(turn / (2.0 * math.pi))
+        beam = round(0.5 * (beams - 1) + turn / step_rad)
+        if not 0 <= beam < beams:
+            continue
+        away = math.hypot(x, y)
+        allowed = ABOUT_M + ABOUT * away
+        heard = agreed = False
+        for j in range(max(beam - ASIDE, 0), min(beam + ASIDE + 1, beams)):
+            heard = heard or ranges_m[j] < np.inf
+            agreed = agreed or abs(ranges_m[j] - away) < allowed
+        compared += heard
+        agree += agreed
+    return agree, compared
