@@ -222,3 +222,27 @@ def test_foreign_graphml_is_refused(tmp_path):
     path.write_text("<html><body>no graph</body></html>")
     with pytest.raises(MemoryFileError, match=r"run\.graphml: "):
         load_topology(path)
+
+
+@pytest.mark.parametrize("ending", ["json", "graphml"])
+def test_ways_found_shut_are_kept(tmp_path, ending):
+    memory = TopologicalMemory()
+    for name in ("L1", "L2"):
+        memory.add_landmark(name, 0.0, 0.0, 0.0, 0.0)
+    memory.traverse("L1", "L2", 1.0, 0.0, 1.0)
+    memory.close("L1", "L2")
+    save_topology(memory, tmp_path / f"m.{ending}")
+    assert load_topology(tmp_path / f"m.{ending}").arc("L1", "L2").closed == 1
+
+
+@pytest.mark.parametrize("wrong", ["-1", "0.5", '"often"'])
+def test_a_count_of_closings_that_is_none_is_refused(tmp_path, wrong):
+    memory = TopologicalMemory()
+    for name in ("L1", "L2"):
+        memory.add_landmark(name, 0.0, 0.0, 0.0, 0.0)
+    memory.traverse("L1", "L2", 1.0, 0.0, 1.0)
+    path = tmp_path / "m.json"
+    save_topology(memory, path)
+    path.write_text(path.read_text().replace('"closed": 0', f'"closed": {wrong}'))
+    with pytest.raises(MemoryFileError, match="arc from 'L1' to 'L2': closed is"):
+        load_topology(path)

@@ -170,3 +170,25 @@ def test_a_memory_restored_goes_on_from_what_was_reported():
         assert getattr(other, name) == pytest.approx(getattr(one, name), abs=1e-9)
     with pytest.raises(KeyError, match="no landmark"):
         TopologicalMemory.restored(memory.nodes[:1], memory.arcs)
+
+
+def test_a_way_found_shut_is_shut_both_ways_until_it_is_gone_again():
+    memory = three()
+    memory.traverse("L1", "L2", 3.0, 0.0, 3.0)
+    memory.traverse("L2", "L1", 3.0, 0.0, 3.0)
+    memory.traverse("L2", "L3", 3.0, 0.0, 3.0)
+    memory.close("L2", "L1")
+    memory.close("L1", "L2")
+    assert [way.closed for way in memory.arcs] == [2, 2, 0]
+    assert TopologicalMemory.restored(memory.nodes, memory.arcs).arcs == memory.arcs
+    memory.traverse("L1", "L2", 3.0, 0.0, 3.0)
+    assert [way.closed for way in memory.arcs] == [0, 0, 0]
+
+
+def test_only_what_is_joined_can_be_shut():
+    memory = three()
+    memory.traverse("L1", "L2", 3.0, 0.0, 3.0)
+    assert memory.joins("L2", "L1")
+    assert not memory.joins("L1", "L3")
+    with pytest.raises(KeyError, match="no arc between 'L1' and 'L3'"):
+        memory.close("L1", "L3")

@@ -175,3 +175,83 @@ def test_text_beside_the_rule_key_keeps_its_line(tmp_path):
     one_line = "  - name: a\n    why: b\n    rule: =g> isa tsk ==> ~g>\n"
     (found,) = problems(tmp_path, one_line)
     assert found.startswith(f"{FIRST_RULE_LINE + 2}: ")
+
+
+STEP = """\
+  - name: set-out
+    why: go
+    rule: |
+      =way>
+          isa way
+          event ordered
+      ==>
+      +way>
+          isa step
+          act choose
+"""
+EXTENDING = """\
+title: More
+extends: base.yaml
+chunk_types:
+  way: [event, goal]
+  step: [act, to, outcome]
+rules:
+"""
+
+
+def extending(tmp_path, rules=STEP, head=EXTENDING):
+    base = tmp_path / "base.yaml"
+    base.write_text(HEAD + GOOD)
+    path = tmp_path / "more.yaml"
+    path.write_text(head + rules)
+    return path
+
+
+def test_a_rule_set_can_extend_another(tmp_path):
+    book = load_rulebook(extending(tmp_path))
+    assert [rule.name for rule in book.rules] == ["attend", "set-out"]
+    assert set(book.chunk_types) == {"reflex", "landmark", "mark", "task", "way", "step"}
+    assert book.goal == {"isa": "task", "state": "watch", "last": "none"}
+    assert book.title == "More"
+    assert book.leads
+    assert not load_rulebook(tmp_path / "base.yaml").leads
+
+
+def test_what_the_extending_file_says_replaces_what_the_other_says(tmp_path):
+    head = EXTENDING.replace("rules:", "goal: {isa: task, state: watch, last: L1}\nharvest: [way]\nrules:")
+    book = load_rulebook(extending(tmp_path, head=head))
+    assert book.goal["last"] == "L1"
+    assert book.harvest == ("way",)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("nothing.yaml", r"more.yaml:2: extends: .*nothing.yaml.*no such file"),
+        ("landmrk", r"more.yaml:2: extends: .*landmrk.*landmark"),
+        ("more.yaml", r"more.yaml:2: extends: more.yaml extends this file in turn"),
+    ],
+)
+def test_what_cannot_be_extended_is_said_with_its_line(tmp_path, name, said):
+    with pytest.raises(RuleError, match=said):
+        load_rulebook(extending(tmp_path, head=EXTENDING.replace("base.yaml", name)))
+
+
+def test_a_name_that_the_extended_file_has_already_is_refused(tmp_path):
+    with pytest.raises(RuleError, match=r"rule 'attend': the name stands twice"):
+        load_rulebook(extending(tmp_path, STEP.replace("set-out", "attend")))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("event ordered", "event orderd", r"unknown event 'orderd'; did you mean 'ordered'"),
+        ("act choose", "act chose", r"unknown act 'chose'; did you mean 'choose'"),
+        ("act choose", "act drive", r"'\+way>': slot 'to' is missing"),
+        ("act choose", "act end\n          outcome arrived", r"unknown outcome 'arrived'"),
+        ("act choose", "to L1", r"'\+way>': slot 'act' is missing"),
+    ],
+)
+def test_mistakes_about_the_way_are_found(tmp_path, old, new, said):
+    with pytest.raises(RuleError, match=said):
+        load_rulebook(extending(tmp_path, STEP.replace(old, new)))

@@ -1,9 +1,9 @@
 """Egomotion: how the robot moves, from its wheels and from what stays where it is.
 
-Wheels mismeasure ways and turns by a few per cent. What a laser sees does not move, so that two
-scans taken near each other tell exactly how the robot moved between them, as optic flow tells
-people and animals (Gibson 1950). Nothing is remembered but one scan: this is path integration, in
-which small errors still add up.
+Wheels mismeasure ways and turns by a few per cent. What a laser sees does not move, so that a scan
+laid on what was seen shortly before tells how the robot moved since, as optic flow tells people and
+animals (Gibson 1950). What was seen is forgotten after some way: this is path integration, in which
+small errors still add up, and no map.
 """
 
 from __future__ import annotations
@@ -23,34 +23,39 @@ REACH_M = 25.0
 """Readings beyond this are not used: too few hit the same wall."""
 POINTS = 180
 """At most so many points of a scan, spread evenly, are matched."""
-KEY_M, KEY_RAD = 0.5, 0.5
-"""A scan is matched with the last key scan; after so much way or turning it becomes the next."""
+CELL_M, CELLS, LINES = 0.25, 208, 3
+"""What was seen is kept in cells of this side, so many each way (more than twice the reach), with
+so many lines in each at most."""
+WITHIN_M = 60.0
+"""What was seen is forgotten after so much way."""
+ADDED_M, ADDED_RAD = 0.2, 0.2
+"""After so much way or turning what a scan shows is added."""
 ODOMETRY_M, ODOMETRY_RAD = 0.05, 0.05
 """Share of way and turning that odometry is expected to be off, one standard deviation."""
-FLOOR_M, FLOOR_RAD, SWERVE_RAD = 0.004, 0.004, 0.005
-"""What it may be off besides: always, and in heading for the square root of each metre."""
+FLOOR_M, FLOOR_RAD = 0.004, 0.004
+"""What it may be off besides, from scan to scan."""
 ROUNDS = 12
-FEW = 20
-"""Fewer points near lines say nothing."""
-SHARE = 0.4
-"""Where a smaller share of the points lies near lines, scans do not fit: then odometry counts."""
+FEW, SHARE = 20, 0.3
+"""Fewer points near lines, or a smaller share, say nothing: then odometry alone counts."""
+FAR_M, FAR_RAD = 0.1, 0.1
+"""A match farther from what odometry says is a mistake."""
 ELSEWHERE = 0.6
 """Where fewer of the readings lie about where those of the scan just before do, the robot was
 carried. `benchmarks/bench_egomotion.py` says how often that is noticed, and how often without
 reason."""
 ONWARD_M, ONWARD_RAD = 0.5, 0.5
 """Scans farther apart than this cannot be compared so."""
-FAR_M, FAR_RAD = 0.15, 0.15
-"""A match farther from what odometry says is a mistake."""
 STILL_M, STILL_RAD = 1e-4, 1e-4
 
 
 class Egomotion:
     """Corrects odometry by matching scans.
 
-    Each scan's points are laid on the lines of the last key scan: the method of Censi (2008), "An
-    ICP variant using a point-to-line metric", with odometry as a prior, so that along a bare
-    corridor, where scans say nothing, odometry alone counts.
+    Each scan's points are laid on the lines that were seen lately: the distance is that of Censi
+    (2008), "An ICP variant using a point-to-line metric", what they are laid on a grid of what came
+    before, as in Vizzo et al. (2023), "KISS-ICP". Odometry is the prior, so that along a bare
+    corridor, where scans say nothing, odometry alone counts. The first line that was seen of a wall
+    stays until it is forgotten, so that errors do not add up while the robot goes about in a room.
 
     Attributes
     ----------
@@ -64,11 +69,12 @@ class Egomotion:
         self.pose = Pose(0.0, 0.0, 0.0)
         self.carried = 0
         self._odometry: Pose | None = None
-        self._key = Pose(0.0, 0.0, 0.0)
-        self._lines = np.empty((0, 4))
-        self._beams = (0.0, 1.0)
+        self._lines = np.zeros((CELLS, CELLS, LINES, 4))
+        self._seen_m = np.zeros((CELLS, CELLS, LINES))
+        self._cells = np.zeros((CELLS, CELLS, 3), np.int64)
+        self._added = self.pose
+        self._travelled_m = 0.0
         self._last = np.empty(0)
-        self._way_m = self._turn_rad = 0.0
 
     def update(
         self, odometry: Pose, bearings_rad: NDArray[np.float64], ranges_m: NDArray[np.float64]
@@ -90,61 +96,70 @@ class Egomotion:
         if not math.isfinite(odometry.x_m + odometry.y_m + odometry.theta_rad):
             return self.pose
         before, self._odometry = self._odometry, odometry
+        readings_m = _usable(ranges_m)
         if before is None:
             self.pose = odometry
-            self._keep(bearings_rad, ranges_m)
+            self._add(bearings_rad, readings_m)
+            self._last = readings_m
             return odometry
         step = odometry.seen_from(before)
         way_m, turn_rad = math.hypot(step.x_m, step.y_m), abs(step.theta_rad)
-        self._way_m += way_m
-        self._turn_rad += turn_rad
+        self._travelled_m += way_m
         if way_m < STILL_M and turn_rad < STILL_RAD:
             return self.pose
-        usable = _usable(ranges_m)
-        points = _points(bearings_rad, usable)
-        if max(way_m / ONWARD_M, turn_rad / ONWARD_RAD) < 1.0 and self._is_elsewhere(points, step):
+        points = _points(bearings_rad, readings_m)
+        near_by = way_m < ONWARD_M and turn_rad < ONWARD_RAD
+        elsewhere = near_by and self._is_elsewhere(bearings_rad, points, step)
+        if elsewhere:
             self.carried += 1
-        self._last = usable
-        guess = self.pose.onward(step).seen_from(self._key)
-        found = self._matched(guess, points)
-        seen = guess if found is None else found
-        self.pose = self._key.onward(seen)
-        far = math.hypot(seen.x_m, seen.y_m) > KEY_M or abs(seen.theta_rad) > KEY_RAD
-        if far or found is None:
-            self._keep(bearings_rad, ranges_m)
+            self._cells[:] = 0
+        self._last = readings_m
+        self.pose = self._matched(self.pose.onward(step), points, way_m, turn_rad)
+        if elsewhere or not _is_about(self.pose, self._added, ADDED_M, ADDED_RAD):
+            self._add(bearings_rad, readings_m)
         return self.pose
 
-    def _is_elsewhere(self, points: NDArray[np.float64], step: Pose) -> bool:
+    def _is_elsewhere(
+        self, bearings_rad: NDArray[np.float64], points: NDArray[np.float64], step: Pose
+    ) -> bool:
         """Tell whether this scan cannot have been taken a step from the one before."""
+        first_rad, last_rad = float(bearings_rad[0]), float(bearings_rad[-1])
+        step_rad = (last_rad - first_rad) / max(len(bearings_rad) - 1, 1) or 1.0
         agree, compared = kernels.agreeing(
-            self._last, *self._beams, points, (step.x_m, step.y_m, step.theta_rad)
-        )
+            self._last, 0.5 * (first_rad + last_rad), step_rad, points,
+            (step.x_m, step.y_m, step.theta_rad),
+        )  # fmt: skip
         return bool(compared >= FEW and agree < ELSEWHERE * compared)
 
-    def _keep(self, bearings_rad: NDArray[np.float64], ranges_m: NDArray[np.float64]) -> None:
-        """Make this scan the key scan."""
-        beams = len(bearings_rad)
-        self._key = self.pose
-        self._lines = np.empty((beams, 4))
-        self._last = _usable(ranges_m)
-        kernels.fit_lines(bearings_rad, self._last, self._lines)
-        step_rad = float(bearings_rad[-1] - bearings_rad[0]) / max(beams - 1, 1)
-        self._beams = 0.5 * float(bearings_rad[0] + bearings_rad[-1]), step_rad or 1.0
-        self._way_m = self._turn_rad = 0.0
-
-    def _matched(self, guess: Pose, points: NDArray[np.float64]) -> Pose | None:
-        """Return the pose in the frame of the key scan; None where the scans do not fit."""
-        x_m, y_m, theta_rad, near = kernels.match(
-            self._lines, *self._beams, points, (guess.x_m, guess.y_m, guess.theta_rad),
-            ODOMETRY_M * self._way_m + FLOOR_M,
-            ODOMETRY_RAD * self._turn_rad + FLOOR_RAD + SWERVE_RAD * math.sqrt(self._way_m),
-            ROUNDS,
+    def _add(self, bearings_rad: NDArray[np.float64], ranges_m: NDArray[np.float64]) -> None:
+        """Add what a scan shows to what was seen lately."""
+        here = (self.pose.x_m, self.pose.y_m, self.pose.theta_rad)
+        lines = np.empty((len(bearings_rad), 4))
+        kernels.fit_lines(bearings_rad, ranges_m, lines)
+        kernels.remember(
+            self._lines, self._seen_m, self._cells, CELL_M, here, lines, self._travelled_m,
+            WITHIN_M,
         )  # fmt: skip
-        if near < max(FEW, SHARE * len(points)):
-            return None
-        found = Pose(x_m, y_m, theta_rad)
-        turned = abs(math.remainder(theta_rad - guess.theta_rad, math.tau))
-        return found if guess.distance_m(found) < FAR_M and turned < FAR_RAD else None
+        self._added = self.pose
+
+    def _matched(
+        self, guess: Pose, points: NDArray[np.float64], way_m: float, turn_rad: float
+    ) -> Pose:
+        """Return where a scan was taken, by what was seen lately; the guess where nothing fits."""
+        x_m, y_m, theta_rad, near = kernels.match(
+            self._lines, self._seen_m, self._cells, CELL_M, points,
+            (guess.x_m, guess.y_m, guess.theta_rad),
+            (ODOMETRY_M * way_m + FLOOR_M, ODOMETRY_RAD * turn_rad + FLOOR_RAD),
+            ROUNDS, self._travelled_m - WITHIN_M,
+        )  # fmt: skip
+        found = Pose(x_m, y_m, math.remainder(theta_rad, math.tau))
+        fits = near >= max(FEW, SHARE * len(points)) and _is_about(found, guess, FAR_M, FAR_RAD)
+        return found if fits else guess
+
+
+def _is_about(one: Pose, other: Pose, within_m: float, within_rad: float) -> bool:
+    turned = abs(math.remainder(one.theta_rad - other.theta_rad, math.tau))
+    return one.distance_m(other) < within_m and turned < within_rad
 
 
 def _points(
