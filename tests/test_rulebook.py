@@ -218,7 +218,9 @@ def test_a_rule_set_can_extend_another(tmp_path):
 
 
 def test_what_the_extending_file_says_replaces_what_the_other_says(tmp_path):
-    head = EXTENDING.replace("rules:", "goal: {isa: task, state: watch, last: L1}\nharvest: [way]\nrules:")
+    head = EXTENDING.replace(
+        "rules:", "goal: {isa: task, state: watch, last: L1}\nharvest: [way]\nrules:"
+    )
     book = load_rulebook(extending(tmp_path, head=head))
     assert book.goal["last"] == "L1"
     assert book.harvest == ("way",)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 CHECK_S = 0.5  # between looks at whether the way is still open, or has become shorter
 PATIENCE_S = 8.0  # for a way to open, before it is called shut
 STUCK_MOST = 3
-AS_NEAR_M = 0.8  # near enough to a place that something stands on
+BESIDE_M, AS_NEAR_M = 0.6, 0.8  # beside a place that something stands on; that is near enough
 BORDER_M = 1.0  # a place beyond the window is driven towards up to so far from its edge
 ROOM_M = 1.5  # there, anything so near will do
 SILENCE_S = 60.0  # rules that have not answered after so long will not
@@ -231,7 +231,7 @@ def _within(own: OwnMap, to: Pose, near_m: float, left_m: float) -> NDArray[np.f
     side_m = own.explored.evidence.shape[0] * own.cell_m
     x_m, y_m = (min(max(v, BORDER_M), side_m - BORDER_M) for v in (to.x_m, to.y_m))
     beyond = (x_m, y_m) != (to.x_m, to.y_m)
-    for room_m in (ROOM_M,) if beyond else (0.5 * near_m, AS_NEAR_M):
+    for room_m in (ROOM_M,) if beyond else (0.5 * near_m, BESIDE_M):
         way = _way(own, x_m, y_m, room_m)
         if way is not None and _length_m(way) <= left_m:
             return way

@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from ssrics_like.perception.observation import LaserScan
     from ssrics_like.world.robot import RobotProfile
 
-SIDE_M = 40.0
+SIDE_M = 30.0
 """Of the window that is kept; what is farther away is forgotten."""
-MARGIN_M = 10.0
+MARGIN_M = 8.0
 """The window moves when the robot is nearer than this to its edge."""
 
 
