@@ -105,7 +105,11 @@ class CognitiveModel:
         self.perception = PerceptionBuffer(perception, doorways, structure)
         self._decisions: list[Decision] = []
         self._modules = LandmarkModules(
-            memory, np.random.default_rng(memory_seed), self._decisions.append, retrieved
+            memory,
+            np.random.default_rng(memory_seed),
+            self._decisions.append,
+            retrieved,
+            surroundings=perception.view == "surroundings",
         )
         self.wayfinder = Wayfinder(
             self._modules,
@@ -125,7 +129,7 @@ class CognitiveModel:
         self._start_s: float | None = None
         self._previous: Observation | None = None
         if remembered is not None:
-            remembered.check_views(perception.view_beams)
+            remembered.check_views(perception.view_length)
             remembered.check_frame(frame)
             remembered.recall_into(self._modules.declarative)
             self._modules.start_from(remembered.topological())

@@ -25,6 +25,7 @@ from ssrics_like.memory import (
     ListedSimilarity,
     Request,
     Retrieval,
+    SurroundingsSimilarity,
     TableSimilarity,
     TopologicalMemory,
     Uncertainty,
@@ -58,6 +59,8 @@ class LandmarkModules:
         Receives every Decision.
     retrieved : callable
         Receives every Retrieval with its time, for the trace.
+    surroundings : bool
+        Whether views are of what surrounds a place, and not of a scan.
     """
 
     def __init__(
@@ -66,6 +69,8 @@ class LandmarkModules:
         rng: np.random.Generator,
         decided: Callable[[Decision], None],
         retrieved: Callable[[float, Retrieval], None],
+        *,
+        surroundings: bool = False,
     ) -> None:
         self.profile = profile
         self.declarative = DeclarativeMemory(
@@ -75,7 +80,11 @@ class LandmarkModules:
                 "sector": TableSimilarity(
                     dict.fromkeys(itertools.combinations(SECTORS, 2), profile.sector_difference)
                 ),
-                "view": ViewSimilarity(profile.view_difference),
+                "view": (
+                    SurroundingsSimilarity(profile.surroundings_difference)
+                    if surroundings
+                    else ViewSimilarity(profile.view_difference)
+                ),
                 "place": ListedSimilarity(self._likeness_of_places, -FAR),
             },
         )
@@ -197,10 +206,11 @@ class LandmarkModules:
             self._arrive(name, reflex, self.whereabouts.find(name, _here(reflex)), new=True)
         elif request.outcome == "recognised":
             self._expect(reflex)
-            before = self.whereabouts.recognise(name, _here(reflex))
+            before = self.whereabouts.recognise(name, _here(reflex), *self._evidence())
             self._arrive(name, reflex, before, new=False)
         elif request.outcome == "unsure" and self._recalled is not None:
-            self._doubt(reflex, self._recalled[0])
+            self._expect(reflex)
+            self.whereabouts.doubt(_here(reflex), *self._evidence())
         self._decide(
             request.event, request.t_s, request.outcome, name, request.rule, self._recalled
         )
@@ -251,15 +261,16 @@ class LandmarkModules:
             self._asked_for = asked
             self._expected = self.whereabouts.expect(_here(reflex), self.topological)
 
-    def _doubt(self, reflex: Reflex, recalled: Retrieval) -> None:
-        """Go on with every landmark that this may be, by all else that speaks for each."""
-        self._expect(reflex)
-        found = recalled.candidates
+    def _evidence(self) -> tuple[dict[str, float], float]:
+        """Return what else but its place speaks for each landmark, and for none of them."""
+        if self._recalled is None:
+            return {}, 0.0
+        found = self._recalled[0].candidates
         evidence = {
             str(name): float(total - noise) + self._expected.get(str(name), FAR)
             for name, total, noise in zip(found.names, found.total, found.noise, strict=True)
         }
-        self.whereabouts.doubt(_here(reflex), evidence, found.threshold)
+        return evidence, found.threshold
 
     def _confidence(self, recalled: Retrieval) -> float:
         """Return how probable it is that what was recalled, or that nothing was, is right."""

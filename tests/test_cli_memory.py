@@ -170,9 +170,8 @@ def odd(tmp_path, **changes):
 @pytest.mark.parametrize(
     ("changes", "more", "message"),
     [
-        ({}, ("--set", "perception.view_beams=12"),
-         "its views have 36 beams, those of this model 12 (perception.view_beams)"),
-        ({"frame": "map"}, (), "its positions are in the frame 'map', those of this run in 'odometry'"),
+        ({}, (), "its views have 36 numbers, those of this model 72 (perception.view and view_beams)"),
+        ({"frame": "map"}, ("--set", "perception.view=scan"), "its positions are in the frame 'map', those of this run in 'odometry'"),
     ],
 )  # fmt: skip
 def test_a_memory_that_does_not_fit_is_refused_in_a_line(capsys, tmp_path, changes, more, message):

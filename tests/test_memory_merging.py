@@ -145,5 +145,5 @@ def test_nothing_is_lost(one, other):
 def test_what_cannot_be_compared_is_not_merged():
     with pytest.raises(ValueError, match="its positions are in the frame 'odometry'"):
         merge(memory(frame="map"), memory(run="b"))
-    with pytest.raises(ValueError, match="its views have 8 beams, the others 36"):
+    with pytest.raises(ValueError, match="its views have 8 numbers, the others 36"):
         merge(memory(1), memory(1, run="b", chunks=(chunk(1, beams=8),)))

@@ -101,7 +101,7 @@ def test_names_go_on_from_the_highest_number_whatever_is_missing():
 
 
 def test_a_memory_of_another_sense_or_frame_is_refused():
-    with pytest.raises(ValueError, match="its views have 36 beams, those of this model 12"):
+    with pytest.raises(ValueError, match="its views have 36 numbers, those of this model 12"):
         landmark_model(remembered=memory())
     with pytest.raises(ValueError, match="in the frame 'map', those of this run in 'odometry'"):
         landmark_model(remembered=memory(chunks=(), frame="map"))

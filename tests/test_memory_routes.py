@@ -58,5 +58,5 @@ def test_routes_are_as_long_as_those_of_networkx(drawn):
     lengths = nx.single_source_dijkstra_path_length(graph, "L1")
     routes = shortest_routes([way(*each) for each in drawn], "L1")
     assert {name: route.path_m for name, route in routes.items()} == pytest.approx(lengths)
-    assert list(routes)[0] == "L1"
+    assert next(iter(routes)) == "L1"
     assert [r.path_m for r in routes.values()] == sorted(r.path_m for r in routes.values())

@@ -67,7 +67,7 @@ def test_recognising_a_landmark_corrects_where_the_robot_believes_to_be():
     whereabouts, names = corridor(DRIFTING)
     # Odometry says 1 m more, after 60 m; L1 is recognised, and with it all others lie there.
     whereabouts.expect(here(1.0, 0.0, 0.0, 60.0), names)
-    before = whereabouts.recognise("L1", here(1.0, 0.0, 0.0, 60.0))
+    before = whereabouts.recognise("L1", here(1.0, 0.0, 0.0, 60.0), {}, 0.0)
     assert before.landmark == "L4"
     nats = whereabouts.expect(here(5.0, 0.0, 0.0, 64.0), names)
     assert nats["L2"] < 1.5
@@ -83,7 +83,7 @@ def test_drift_is_absorbed_by_the_link_that_closes_a_loop():
     kept = {pair: links.between(*pair) for pair in (("L1", "L2"), ("L2", "L3"), ("L3", "L4"))}
     again = here(0.4, -0.3, 0.0, 40.0)
     whereabouts.expect(again, ["L1", "L2", "L3", "L4"])
-    whereabouts.recognise("L1", again)
+    whereabouts.recognise("L1", again, {}, 0.0)
     assert {pair: links.between(*pair) for pair in kept} == kept
     closing = links.between("L4", "L1").pose
     assert closing.distance_m(Pose(0.0, -10.0, 0.0)) < 0.6
@@ -130,10 +130,10 @@ def test_a_robot_that_is_lost_finds_itself_by_the_gaps_between_landmarks():
             assert len({round(value, 6) for value in nats.values()}) == 1
             whereabouts.doubt(at, evidence, -10.0)
     assert min(nats, key=nats.get) == "L3"
-    whereabouts.recognise("L3", at)
+    whereabouts.recognise("L3", at, evidence, -10.0)
     nats = whereabouts.expect(Here(frame.onward(Pose(-4.0, 5.0, 0.0)), True, 12.0, 0.0), places)
     assert min(nats, key=nats.get) == "L4"
-    assert nats["L4"] < 3.0  # what two landmarks say of the direction is not very certain
+    assert nats["L4"] < 4.0  # what two landmarks say of the direction is not very certain
 
 
 def test_a_robot_that_is_lost_trusts_no_single_landmark_and_gives_up_in_the_end():

@@ -32,7 +32,7 @@ def hallways(*boxes):
 def described(grid, places, turned=0.0, wide=True):
     """Drive to the last place and describe the way; `turned` turns the frame of odometry."""
     start = (*places[0], math.atan2(*(places[1] - places[0])[::-1]))
-    surroundings, found = Surroundings(wide=wide), []
+    surroundings, found = Surroundings(wide=wide, layout=wide), []
     c, s = math.cos(turned), math.sin(turned)
     for o in simulated(grid, exact_robot(exact_laser()), start, [Along(places)]):
         x, y, heading = o.true_pose.x_m, o.true_pose.y_m, o.true_pose.theta_rad
@@ -209,7 +209,7 @@ def test_the_gap_is_measured_as_without_a_wide_map():
 
 
 def test_a_robot_that_is_carried_away_begins_a_new_map():
-    surroundings, found = Surroundings(wide=True), []
+    surroundings, found = Surroundings(wide=True, layout=True), []
     for x in (*np.arange(0.0, 2.0, 0.1), *np.arange(50.0, 51.0, 0.1)):
         reading = 1.0 if x < 50.0 else 3.0
         ranges = np.full(len(AROUND), reading)

@@ -31,6 +31,7 @@ def test_the_defaults_are_those_of_the_human_like_profile_but_for_what_it_looks_
         "egomotion": "odometry",
         "doorways": "",
         "structure": "",
+        "view": "scan",
         "interval": 20,
     }
     assert load("human-like").model_copy(update=plain) == PerceptionProfile()

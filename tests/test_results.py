@@ -539,7 +539,7 @@ def test_a_robot_that_jumps_and_a_log_too_short_are_said(tmp_path):
     plain = scenario(
         tmp_path / "short.log",
         set=dict.fromkeys(("perception.doorways", "perception.structure"), "")
-        | {"perception.along": "scans"},
+        | {"perception.along": "scans", "perception.view": "scan"},
     )
     manifest = run_scenario(plain, tmp_path / "plain")
     assert any("fewer than one interval of 12" in text for text in manifest["warnings"])

@@ -131,11 +131,11 @@ EVERY_COMPLAINT = """\
 19:33: world.building.rooms: 1: expected greater than or equal to 2
 19:43: world.building.hallways: 'Z' where 'any', 'straight', 'L', 'T', 'X', 'U' or 'ring' was expected
 19:56: world.building.scale: [3.0, 1.0]: expected [from, to], rising, within 0.7 and 3
-21:7: world.legs.0: a leg is explore, waypoints or wait_s, one of them; it has explore and wait_s
+21:7: world.legs.0: a leg is explore, goto, wait_s, waypoints, one of them; it has explore and wait_s
 23:7: world.legs.1.wait_s: -1: expected greater than or equal to 0
 24:7: unknown key 'world.legs.2.waypoint'; did you mean 'waypoints'?
 25:7: world.legs.3: repeat goes with waypoints, this leg has wait_s
-26:7: world.legs.4: a leg is explore, waypoints or wait_s, one of them; it has none of them
+26:7: world.legs.4: a leg is explore, goto, wait_s, waypoints, one of them; it has none of them
 27:12: world.people.count: 'many' where a whole number was expected
 27:25: unknown key 'world.people.speed'; did you mean 'speed_m_s'?
 28:15: world.furniture.pieces: -3: expected greater than or equal to 0
@@ -578,7 +578,8 @@ def test_the_json_schema_states_kinds_and_limits():
     schema = json_schema("scenario")
     world = schema["$defs"]["WorldSettings"]["properties"]
     assert set(world) == {
-        "map", "building", "locations", "robot", "start", "explore", "waypoints", "repeat", "legs",
+        "map", "building", "locations", "robot", "start", "explore", "waypoints", "goto", "repeat",
+        "legs",
         "time_limit_s", "furniture", "people", "doors", "slip", "kidnaps",
     }  # fmt: skip
     assert schema["properties"]["runs"]["minimum"] == 1

@@ -20,6 +20,7 @@ from ssrics_like.memory.similarity import (
     ViewSimilarity,
 )
 from ssrics_like.memory.store import load_topology, save_topology
+from ssrics_like.memory.surroundings import SurroundingsSimilarity
 from ssrics_like.memory.topological import TopologicalMemory
 from ssrics_like.memory.whereabouts import Here, Hypothesis, Uncertainty, Whereabouts
 
@@ -42,6 +43,7 @@ __all__ = [
     "Route",
     "SavedMemory",
     "SlotSimilarity",
+    "SurroundingsSimilarity",
     "TableSimilarity",
     "TopologicalMemory",
     "Uncertainty",

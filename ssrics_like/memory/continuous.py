@@ -48,14 +48,14 @@ class ViewColumn:
         self._views: list[View | None] = []
         self._present = GrowingArray(np.bool_)
         self._level = GrowingArray(np.float64)  # of a constant view, else NaN
-        self._directions: GrowingArray[np.float32] | None = None  # made when the length is known
+        self._rows: GrowingArray[np.float32] | None = None  # made when the length is known
 
     def check(self, value: Value) -> None:
         """Raise TypeError unless it is a View, ValueError unless as long as the others."""
         view = _expect_view(self.slot, value)
-        if self._directions is None:
+        if self._rows is None:
             return
-        length = self._directions.used.shape[1]
+        length = self._rows.used.shape[1]
         if len(view.descriptor) != length:
             raise ValueError(
                 f"slot '{self.slot}': view '{view.name}' has {len(view.descriptor)} numbers, "
@@ -65,12 +65,12 @@ class ViewColumn:
     def append(self, value: Value | None) -> None:
         """Add the view of the next chunk; None if it lacks the slot."""
         view = None if value is None else _expect_view(self.slot, value)
-        if self._directions is None and view is not None:
-            self._directions = GrowingArray(np.float32, len(view.descriptor))
+        if self._rows is None and view is not None:
+            self._rows = GrowingArray(np.float32, len(view.descriptor))
             for _ in self._views:
-                self._directions.append(0.0)
-        if self._directions is not None:
-            self._directions.append(0.0 if view is None else view.direction)
+                self._rows.append(0.0)
+        if self._rows is not None:
+            self._rows.append(0.0 if view is None else self._row(view))
         self._views.append(view)
         self._present.append(view is not None)
         self._level.append(np.nan if view is None else _level(view))
@@ -79,11 +79,15 @@ class ViewColumn:
         """Store another view for a chunk that has one."""
         self.check(value)
         view = _expect_view(self.slot, value)
-        if self._directions is None or self._views[row] is None:
+        if self._rows is None or self._views[row] is None:
             raise ValueError(f"slot '{self.slot}' of chunk {row} is empty: nothing to replace")
         self._views[row] = view
         self._level.used[row] = _level(view)
-        self._directions.used[row] = view.direction
+        self._rows.used[row] = self._row(view)
+
+    def _row(self, view: View) -> NDArray[np.float32]:
+        """Return what is kept of a view to compare it with others."""
+        return view.direction
 
     @property
     def present(self) -> NDArray[np.bool_]:
@@ -107,12 +111,12 @@ class ViewColumn:
         self.check(requested)
         view = _expect_view(self.slot, requested)
         level = _level(view)
-        if self._directions is None:
+        if self._rows is None:
             return np.full(len(self._views), self._scale.different)
         if np.isnan(level):
             # einsum, not BLAS: BLAS sums a row differently by its position and by the
             # number of threads, so equal views would differ and runs would not repeat.
-            r = np.einsum("ij,j->i", self._directions.used, view.direction).astype(np.float64)
+            r = np.einsum("ij,j->i", self._rows.used, view.direction).astype(np.float64)
             np.clip(r, 0.0, 1.0, out=r)
         else:
             r = (self._level.used == level).astype(np.float64)

@@ -98,7 +98,9 @@ def merge(one: SavedMemory, other: SavedMemory) -> Merged:
     if one.landmarks:
         other.check_frame(one.frame)
     if one.view_length is not None and other.view_length not in (None, one.view_length):
-        raise ValueError(f"its views have {other.view_length} beams, the others {one.view_length}")
+        raise ValueError(
+            f"its views have {other.view_length} numbers, the others {one.view_length}"
+        )
     joined, renamed = _names(one, other)
     names = {**joined, **renamed}
     landmarks = {landmark.id: landmark for landmark in one.landmarks}

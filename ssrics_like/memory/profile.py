@@ -24,6 +24,8 @@ class MemoryProfile(MemoryParameters):
     view_difference : float
         Similarity of two views that do not correlate. A view is egocentric too: a place looks
         another from the other side.
+    surroundings_difference : float
+        Similarity of two places whose surroundings agree no more than those of any two.
     place_sigma_m, direction_sigma_rad : float
         Standard deviations, metres and radians, of where a landmark is perceived from one visit to
         the next, and of the direction of a doorway.
@@ -47,9 +49,10 @@ class MemoryProfile(MemoryParameters):
     )
     sector_difference: Annotated[float, Field(le=0)] = 0.0
     view_difference: Annotated[float, Field(le=0)] = -2.0
-    place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 0.2
+    surroundings_difference: Annotated[float, Field(le=0)] = -6.0
+    place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 0.15
     direction_sigma_rad: Annotated[float, Field(ge=1e-3, le=1e3)] = 0.25
-    place_drift: Annotated[float, Field(ge=0, le=1e3)] = 0.02
-    swerve_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.002
-    turn_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.003
+    place_drift: Annotated[float, Field(ge=0, le=1e3)] = 0.01
+    swerve_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.001
+    turn_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.001
     wheel_bias: Annotated[float, Field(ge=0, le=1)] = 0.02

@@ -209,18 +209,18 @@ class SavedMemory:
         """How many numbers each view has; None without any view."""
         return next((len(view.descriptor) for view in self._views()), None)
 
-    def check_views(self, beams: int) -> None:
-        """Check that views of so many beams can be compared with those here.
+    def check_views(self, numbers: int) -> None:
+        """Check that views of so many numbers can be compared with those here.
 
         Raises
         ------
         ValueError
             If they have another length.
         """
-        if self.view_length not in (None, beams):
+        if self.view_length not in (None, numbers):
             raise ValueError(
-                f"its views have {self.view_length} beams, those of this model {beams} "
-                "(perception.view_beams)"
+                f"its views have {self.view_length} numbers, those of this model {numbers} "
+                "(perception.view and view_beams)"
             )
 
     def check_frame(self, frame: str) -> None:

@@ -29,6 +29,8 @@ new part of the graph."""
 ENOUGH = 3
 """A robot that was lost knows where it is when so many landmarks in a row fit: buildings have rows
 of doorways that look alike."""
+PROVEN = 8
+"""Until so many have fitted, other hypotheses are gone on with, in case that it was a mistake."""
 GIVEN_UP = 6
 """After so many landmarks in a row that it was unsure of, a robot that is lost takes the next one
 that it does not know for new: it is somewhere that it has never been."""
@@ -94,14 +96,14 @@ class Hypothesis:
     weight : float
         Logarithm of the probability.
     met : int
-        How many landmarks in a row it has explained since the robot was lost; 3 are enough.
+        How many landmarks it has explained since the robot was lost; 3 are enough, and 8 prove it.
     """
 
     landmark: str | None
     fix: Link
     at: Here
     weight: float
-    met: int = ENOUGH
+    met: int = PROVEN
 
 
 _NOWHERE = Pose(0.0, 0.0, 0.0)
@@ -219,13 +221,26 @@ class Whereabouts:
                 odds[case.landmark] = odds.get(case.landmark, 0.0) + p
         return {name: min(-math.log(p), FAR) for name, p in odds.items() if p > 0.0}
 
-    def recognise(self, landmark: str, here: Here) -> Hypothesis | None:
+    def recognise(
+        self, landmark: str, here: Here, evidence: Mapping[str, float], new: float
+    ) -> Hypothesis | None:
         """Be at a landmark that is known; return where the robot came from, if that is known.
 
-        If it came from another one, how the two lie from each other is learned.
+        If it came from another one, how the two lie from each other is learned. A robot that was
+        lost learns nothing until it is proven that it was right.
+
+        Parameters
+        ----------
+        landmark : str
+            Which.
+        here, evidence, new : as for `doubt`
         """
-        self._doubts = 0
         case = self._likeliest(landmark)
+        if case is not None and case.before.met + 1 < PROVEN:
+            self.doubt(here, evidence, new)
+            self._doubts = 0
+            return None
+        self._doubts = 0
         if case is None:  # recognised without being expected
             self.hypotheses = (Hypothesis(landmark, Link(here.place, 0.0, 0.0), here, 0.0),)
             return None
@@ -274,7 +289,7 @@ class Whereabouts:
             Hypothesis(
                 case.landmark, case.fix, here,
                 case.before.weight - case.nats + evidence[case.landmark],
-                min(case.before.met + 1, ENOUGH),
+                min(case.before.met + 1, PROVEN),
             )
             for case in self._cases if case.landmark in evidence
         ]  # fmt: skip

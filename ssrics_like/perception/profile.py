@@ -16,6 +16,8 @@ from ssrics_like.perception.sectors import SectorRule
 
 Anchor = Literal["newest", "middle", "oldest"]
 Along = Literal["scans", "metres"]
+ViewOf = Literal["scan", "surroundings"]
+SURROUNDINGS_LENGTH = 72  # of `surround_view`, which is compiled and loaded late
 EgomotionOf = Literal["odometry", "laser"]
 Fraction = Annotated[float, Field(gt=0.0, lt=1.0)]
 
@@ -62,8 +64,11 @@ class PerceptionProfile(BaseModel):
         view. Of an even number of scans the middle is the later of the two.
     sector_rule : {"robust", "maximum"}
         Whether a running median or the single largest reading decides the sector.
+    view : {"scan", "surroundings"}
+        What a place is known again by: the anchor's scan, or what surrounds the place in its own
+        frame, the same from either side. The latter needs `along` metres.
     view_beams : int
-        Size of the view descriptor.
+        Size of the view of a scan.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
@@ -84,6 +89,7 @@ class PerceptionProfile(BaseModel):
     prominence: Fraction = 0.1
     anchor: Anchor = "middle"
     sector_rule: SectorRule = "robust"
+    view: ViewOf = "scan"
     view_beams: Annotated[int, Field(ge=2, le=10_000)] = 36
 
     @field_validator("repair_window")
@@ -98,4 +104,13 @@ class PerceptionProfile(BaseModel):
         for key in ("doorways", "structure"):
             if getattr(self, key) and self.along != "metres":
                 raise ValueError(f"{key}: the cue looks at places along the way; set along: metres")
+        if self.view == "surroundings" and self.along != "metres":
+            raise ValueError(
+                "view: surroundings are those of places along the way; set along: metres"
+            )
         return self
+
+    @property
+    def view_length(self) -> int:
+        """How many numbers a view has."""
+        return self.view_beams if self.view == "scan" else SURROUNDINGS_LENGTH

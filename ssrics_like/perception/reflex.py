@@ -70,8 +70,8 @@ class Reflex:
         Sum of all turns, whichever way, from the first observation to the anchor.
     carried : int
         How often the robot found itself suddenly elsewhere by then.
-    view : ndarray, shape (view_beams,), float32
-        The anchor's view descriptor; see `describe_view`.
+    view : ndarray, shape (view_length,), float32
+        What it looks like there: see `describe_view` and `surround_view`.
     """
 
     event: int
@@ -148,7 +148,9 @@ class PerceptionBuffer:
             # Compiled code is loaded only where it is needed.
             from ssrics_like.perception.sights import Sights  # noqa: PLC0415
 
-            self._sights = Sights(self._watch, doorways, structure)
+            self._sights = Sights(
+                self._watch, doorways, structure, around=profile.view == "surroundings"
+            )
         self._egomotion: Egomotion | None = None
         if profile.egomotion == "laser":
             from ssrics_like.perception.egomotion import Egomotion  # noqa: PLC0415 - as above
@@ -287,7 +289,11 @@ class PerceptionBuffer:
             directed=gap is not None,
             turned_rad=anchor.turned_rad,
             carried=anchor.carried,
-            view=describe_view(anchor.ranges_m, self.profile.view_beams),
+            view=(
+                describe_view(anchor.ranges_m, self.profile.view_beams)
+                if anchor.around is None
+                else anchor.around
+            ),
         )
         self._events += 1
         return reflex

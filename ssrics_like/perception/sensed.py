@@ -34,6 +34,8 @@ class Sensed(NamedTuple):
         What the place looks like: "unknown" where structure is not perceived.
     gap : Pose or None
         In a doorway its middle, and the direction through that the robot takes; frame of odometry.
+    around : ndarray or None
+        What surrounds the place, as `surround_view`; None where that is not perceived.
     """
 
     observation: Observation
@@ -44,3 +46,4 @@ class Sensed(NamedTuple):
     carried: int
     structure: str = UNKNOWN
     gap: Pose | None = None
+    around: NDArray[np.float32] | None = None

@@ -44,13 +44,24 @@ class Sights:
     structure : StructureCue, optional
         What was learned of other structure; without it corridors are told from rooms by their
         width if doorways are perceived, and else no structure is perceived.
+    around : bool
+        Whether moments are handed out with what surrounds their place.
     """
 
     def __init__(
-        self, watch: NoveltyWatch, cue: DoorwayCue | None, structure: StructureCue | None = None
+        self,
+        watch: NoveltyWatch,
+        cue: DoorwayCue | None,
+        structure: StructureCue | None = None,
+        *,
+        around: bool = False,
     ) -> None:
         self._watch = watch
-        self._surroundings: Surroundings[Sensed] = Surroundings(wide=structure is not None)
+        self._around = around
+        layout = structure is not None
+        self._surroundings: Surroundings[Sensed] = Surroundings(
+            wide=layout or around, layout=layout
+        )
         self._structure = None if structure is None else StructureWatch(structure, watch.longest)
         self._doorways: DoorwayWatch[Sensed] | None = None if cue is None else DoorwayWatch(cue)
         self._doorway_m = -math.inf
@@ -80,7 +91,7 @@ class Sights:
             )
             if self._doorways is not None:
                 doorways += [self._moment(seen) for seen in self._doorways.update(described)]
-        return doorways or self._elsewhere(novel)
+        return self._looked_round(doorways or self._elsewhere(novel))
 
     def flush(self) -> list[Moment]:
         """Return the moments kept back so far, as at the end of a log."""
@@ -88,7 +99,22 @@ class Sights:
         doorways = [] if self._doorways is None else self._doorways.flush()
         found = [self._moment(seen) for seen in doorways]
         found += self._elsewhere(novel)
-        return sorted(found, key=lambda moment: moment.anchor.travelled_m)
+        return self._looked_round(sorted(found, key=lambda moment: moment.anchor.travelled_m))
+
+    def _looked_round(self, moments: list[Moment]) -> list[Moment]:
+        """Add what surrounds the places, if that is wanted."""
+        if not self._around:
+            return moments
+        return [
+            moment._replace(
+                anchor=moment.anchor._replace(
+                    around=self._surroundings.view_of(
+                        moment.anchor.gap or moment.anchor.observation.pose
+                    )
+                )
+            )
+            for moment in moments
+        ]
 
     def _elsewhere(self, novel: list[Moment]) -> list[Moment]:
         """Return the moments that belong to no doorway, with the words for their places."""

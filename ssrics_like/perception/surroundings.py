@@ -11,6 +11,7 @@ import numpy as np
 from ssrics_like.perception.gap import gap_features
 from ssrics_like.perception.layout import layout_measures
 from ssrics_like.perception.local_map import LocalMap
+from ssrics_like.perception.surround_view import surround_view
 from ssrics_like.perception.walk import STEP_M, Walk
 from ssrics_like.perception.wide_map import WideMap
 
@@ -41,7 +42,7 @@ class Described(Generic[T]):
     gap : Pose
         The middle of the gap that it lies in, and the direction through; frame of odometry.
     layout : ndarray, shape (measures,), float64
-        In the order of `ssrics_like.perception.layout.LAYOUT`; empty unless surroundings are wide.
+        In the order of `ssrics_like.perception.layout.LAYOUT`; empty unless it is measured.
     """
 
     place: Place[T]
@@ -58,10 +59,13 @@ class Surroundings(Generic[T]):
     Parameters
     ----------
     wide : bool
-        Whether a wide map is kept too, and the layout of places measured.
+        Whether a wide map is kept too.
+    layout : bool
+        Whether the layout of places is measured; needs the wide map.
     """
 
-    def __init__(self, *, wide: bool = False) -> None:
+    def __init__(self, *, wide: bool = False, layout: bool = False) -> None:
+        self._layout = layout
         self._map = LocalMap()
         self._wide = WideMap() if wide else None
         self._walk: Walk[T] = Walk(STEP_M, LAG_M)
@@ -105,10 +109,15 @@ class Surroundings(Generic[T]):
             self._mapped = (here_m, pose.theta_rad)
         return [self._described(place) for place in self._walk.places()]
 
+    def view_of(self, place: Pose) -> NDArray[np.float32]:
+        """Describe what surrounds a place near the robot, as `surround_view`; needs a wide map."""
+        assert self._wide is not None
+        return surround_view(self._wide, place, self._walk.travelled_m)
+
     def _described(self, place: Place[T]) -> Described[T]:
         here_m = self._walk.travelled_m
         at = (place.x_m, place.y_m, place.heading_rad)
         measures, gap = gap_features(self._map, at, here_m)
-        if self._wide is None:
+        if self._wide is None or not self._layout:
             return Described(place, measures, gap)
         return Described(place, measures, gap, layout_measures(self._wide, at, here_m))

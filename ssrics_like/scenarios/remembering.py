@@ -69,15 +69,15 @@ class Recollection:
         """Return what one run needs of it."""
         return replace(self, by_run={run: self.by_run[run]})
 
-    def check_views(self, beams: int) -> None:
-        """Check that views of so many beams can be compared with those remembered.
+    def check_views(self, numbers: int) -> None:
+        """Check that views of so many numbers can be compared with those remembered.
 
         Raises
         ------
         MemoryFileError
             If they have another length.
         """
-        self._check(lambda memory: memory.check_views(beams))
+        self._check(lambda memory: memory.check_views(numbers))
 
     def check_frame(self, frame: str) -> None:
         """Check that positions in a frame can be compared with those remembered.

@@ -221,7 +221,7 @@ def resolve(
     problems.complain()
     with problems.gathered(remembering):
         if recollection is not None:
-            recollection.check_views(perception.view_beams)
+            recollection.check_views(perception.view_length)
     problems.complain()
     return Resolved(
         scenario=scenario,

@@ -73,7 +73,7 @@ def described(drive: TrainingDrive, *, layout: bool = False) -> Example:
         Whether their layout is wanted, and not the gap at each.
     """
     profile = PerceptionProfile()
-    surroundings: Surroundings[int] = Surroundings(wide=layout)
+    surroundings: Surroundings[int] = Surroundings(wide=layout, layout=layout)
     found: list[Described[int]] = []
     for scan, (pose, ranges_m) in enumerate(zip(drive.poses, drive.ranges_m, strict=True)):
         conditioned = condition(ranges_m, profile.range_cap_m, profile.repair_window)
