@@ -98,8 +98,8 @@ def nearest(known: list[tuple[str, Reflex]], reflex: Reflex, *, view: bool) -> s
 
 
 def reflexes(drive: BenchDrive) -> list[Reflex]:
-    """Return the reflexes at doorways, which the default rules mark."""
-    profile = load_perception("human-like")
+    """Return the reflexes at doorways, which the default rules mark, with scans as their views."""
+    profile = load_perception("human-like").model_copy(update={"structure": "", "view": "scan"})
     buffer = PerceptionBuffer(profile, read_cue(find_cue(profile.doorways)))
     fired = [r for o in drive.observations for r in buffer.update(o)] + buffer.flush()
     return [reflex for reflex in fired if reflex.structure == "doorway"]

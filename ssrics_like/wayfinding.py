@@ -251,12 +251,13 @@ class Wayfinder:
     def _plan(self, goal: str) -> BufferChunk:
         """Find the landmark that comes next on the shortest open way."""
         assert self._now is not None
-        at = self._now.at
         route = self._routes().get(goal)
-        if route is None or self._place(goal) is None or frozenset((at, goal)) in self._now.shut:
-            return self._chunk("cut-off", "no-open-way")
-        self._now.next = route.landmarks[min(1, len(route.landmarks) - 1)]
-        return self._chunk("planned")
+        if route is not None and self._place(goal) is not None:
+            first = route.landmarks[min(1, len(route.landmarks) - 1)]
+            if frozenset((self._now.at, first)) not in self._now.shut:
+                self._now.next = first
+                return self._chunk("planned")
+        return self._chunk("cut-off", "no-open-way")
 
     def _drive(self, to: str) -> BufferChunk:
         """Set the body going."""

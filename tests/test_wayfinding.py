@@ -143,6 +143,14 @@ def test_where_every_way_is_shut_the_errand_fails_with_its_reason():
     assert led.errand.shut == ("L1-L2", "L1-L4")
 
 
+def test_where_the_way_straight_to_the_goal_is_shut_it_is_gone_round():
+    led = Led()
+    led.order("L2")
+    led.tell("blocked", "shut")
+    assert [led.arrive() for _ in range(3)] == [PLACES[n] for n in ("L4", "L3", "L2")]
+    assert (led.errand.outcome, led.errand.shut) == ("reached", ("L1-L2",))
+
+
 def test_what_was_found_shut_on_an_earlier_errand_is_tried_when_nothing_else_is_left():
     led = Led()
     for ends in (("L1", "L2"), ("L1", "L4")):

@@ -15,20 +15,28 @@ from ssrics_like.perception.gap import FEATURES
 from ssrics_like.perception.novelty_watch import Moment
 from ssrics_like.perception.panorama import panorama
 from ssrics_like.perception.structure import StructureWatch, corridor_or_room
+from ssrics_like.perception.surround_view import UNSEEN
 from ssrics_like.perception.surroundings import Described, Surroundings
-from ssrics_like.perception.walk import STEP_M
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ssrics_like.perception.doorways import DoorwayCue
     from ssrics_like.perception.novelty_watch import NoveltyWatch
     from ssrics_like.perception.observation import Pose
     from ssrics_like.perception.sensed import Sensed
     from ssrics_like.perception.structure import StructureCue
 
+DOORWAY = "doorway"
 NECK_M = 0.4
 """A doorway is where the gap is narrowest, at most so far from where it looks most like one."""
 ASIDE_M = 0.5
 """The robot went through: the middle of the doorway cannot lie farther from its way."""
+BEFORE_M, THROUGH_M = 0.5, 0.5
+"""From so far before a doorway to so far after it, the robot got so much farther through, or it
+turned back; then the gap that it turned in says nothing of where the doorway is."""
+KEPT = 20  # places: two metres, more than anything is decided late
 WIDTH = FEATURES.index("width_m")
 
 
@@ -65,7 +73,7 @@ class Sights:
         self._structure = None if structure is None else StructureWatch(structure, watch.longest)
         self._doorways: DoorwayWatch[Sensed] | None = None if cue is None else DoorwayWatch(cue)
         self._doorway_m = -math.inf
-        self._recent: deque[Described[Sensed]] = deque(maxlen=round(2.0 * NECK_M / STEP_M))
+        self._recent: deque[Described[Sensed]] = deque(maxlen=KEPT)
 
     def update(self, sensed: Sensed) -> list[Moment]:
         """Take what was sensed; return the moments that stand out, mostly none.
@@ -106,15 +114,15 @@ class Sights:
         if not self._around:
             return moments
         return [
-            moment._replace(
-                anchor=moment.anchor._replace(
-                    around=self._surroundings.view_of(
-                        moment.anchor.gap or moment.anchor.observation.pose
-                    )
-                )
-            )
+            moment._replace(anchor=moment.anchor._replace(around=self._view_of(moment.anchor)))
             for moment in moments
         ]
+
+    def _view_of(self, anchor: Sensed) -> NDArray[np.float32]:
+        """Look round; from a doorway without a direction there is nothing to begin with."""
+        if anchor.gap is None and anchor.structure == DOORWAY:
+            return UNSEEN
+        return self._surroundings.view_of(anchor.gap or anchor.observation.pose)
 
     def _elsewhere(self, novel: list[Moment]) -> list[Moment]:
         """Return the moments that belong to no doorway, with the words for their places."""
@@ -136,7 +144,7 @@ class Sights:
         self._doorway_m = described.place.nearest.travelled_m
         novelty = self._watch.novelty_at(described.place.at_m)
         return Moment(
-            described.place.nearest._replace(structure="doorway", gap=self._neck(described)),
+            described.place.nearest._replace(structure=DOORWAY, gap=self._neck(described)),
             0.0 if novelty is None else novelty,
         )
 
@@ -149,4 +157,13 @@ class Sights:
         )
         neck = min(near, key=lambda described: float(described.measures[WIDTH]), default=seen)
         aside_m = math.hypot(neck.gap.x_m - neck.place.x_m, neck.gap.y_m - neck.place.y_m)
-        return neck.gap if aside_m <= ASIDE_M else None
+        return neck.gap if aside_m <= ASIDE_M and self._went_through(seen, neck.gap) else None
+
+    def _went_through(self, seen: Described[Sensed], gap: Pose) -> bool:
+        """Tell whether the robot went on through a gap, and did not turn back in it."""
+        before, after = (
+            min(self._recent, key=lambda each: abs(each.place.at_m - at_m)).place
+            for at_m in (seen.place.at_m - BEFORE_M, seen.place.at_m + BEFORE_M)
+        )
+        cos, sin = math.cos(gap.theta_rad), math.sin(gap.theta_rad)
+        return cos * (after.x_m - before.x_m) + sin * (after.y_m - before.y_m) >= THROUGH_M
