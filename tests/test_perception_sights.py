@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from buildings import DOOR, Along, exact_laser, exact_robot, line, simulated, two_rooms
 
+from ssrics_like.memory.surroundings import agreement
 from ssrics_like.perception import LaserScan, Observation, PerceptionBuffer, PerceptionProfile, Pose
 from ssrics_like.perception.doorways import DoorwayCue
 from ssrics_like.perception.gap import FEATURES
@@ -147,3 +148,38 @@ def test_no_peak_of_novelty_takes_a_doorways_place(rate_hz):
             assert moments.count(now.index) == 1
             later = [r.travelled_m for r, then in fired if then.index > now.index]
             assert all(abs(m - reflex.travelled_m) >= 0.8 for m in later)
+
+
+AROUND = ALONG.model_copy(update={"view": "surroundings"})
+
+
+def seen_around(places):
+    """Return the views of the doorway, by the way that is driven."""
+    fired, _ = reflexes(drive(places), profile=AROUND)
+    return [reflex for reflex, _ in fired if reflex.structure == "doorway"]
+
+
+def test_what_surrounds_a_doorway_is_looked_at_from_its_middle_along_the_way_through():
+    (reflex,) = seen_around(THERE)
+    assert reflex.directed
+    assert reflex.view.shape == (AROUND.view_length,)
+    lengths, unknown = reflex.view.reshape(2, -1)
+    ahead, aside = lengths[0], lengths[9]
+    assert ahead == pytest.approx(2.9, abs=0.2)  # to the wall of the room behind
+    assert aside == pytest.approx(0.45, abs=0.15)  # to the jamb
+    assert unknown[0] < 1.0
+    assert unknown[18] > 1.0  # the wall behind its start was never seen
+
+
+def test_from_the_other_side_it_is_the_same_half_a_turn_aside():
+    (there,), (back,) = seen_around(THERE), seen_around(line((5.0, 1.5), (1.0, 1.5)))
+    alike = agreement(there.view, back.view[None])[0]
+    assert alike > 0.8
+
+
+def test_a_doorway_that_the_robot_turns_back_in_has_neither_direction_nor_view():
+    places = np.vstack([line((1.0, 1.5), (3.1, 1.5)), line((3.1, 1.45), (1.0, 1.45))])
+    for reflex in seen_around(places):
+        assert not reflex.directed
+        assert np.isnan(agreement(reflex.view, reflex.view[None])).all()
+    assert seen_around(places)

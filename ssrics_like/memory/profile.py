@@ -40,7 +40,7 @@ class MemoryProfile(MemoryParameters):
 
     title: str = ""
     source: str = ""
-    retrieval_threshold: float = -11.5
+    retrieval_threshold: float = -13.0
     latency_factor: Annotated[float, Field(ge=0, le=1e6)] = 0.001
     mismatch_penalty: float | None = 1.0
     activation_noise: Annotated[float, Field(ge=0)] = 0.1

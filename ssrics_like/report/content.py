@@ -14,6 +14,7 @@ from ssrics_like.report.markers import TIPPED_MAX
 from ssrics_like.report.records import Results
 from ssrics_like.report.style import decision_order
 from ssrics_like.report.words import number_text, percent_text, time_text
+from ssrics_like.results.errands import outcome_text
 from ssrics_like.results.records import DECISIONS, Landmark, Run
 
 CLOCK_STEP_S = 1e-6  # the last decimal of the tables
@@ -39,6 +40,7 @@ def content_of(results: Results) -> dict[str, Any]:
         "warnings": [str(text) for text in manifest["warnings"]],
         "runs": [_run_row(each) for each in results.runs],
         "decisions": _decisions_shown(results.runs),
+        "errands": [row for each in results.runs for row in _errand_rows(each)],
         "landmarks": [_landmark_row(i, mark) for i, mark in enumerate(run.landmarks)],
         "positions": _positions(results),
         "linked": len(run.landmarks) <= TIPPED_MAX,
@@ -228,14 +230,30 @@ def _value(value: Any) -> str:
     return str(value)
 
 
+def _errand_rows(run: Run) -> list[dict[str, str]]:
+    """Return what is said of each errand of a run."""
+    return [
+        {
+            "run": str(run.number),
+            "order": str(errand["order"]),
+            "began": time_text(float(errand["started_s"]) - run.start_s),
+            "outcome": outcome_text(errand),
+        }
+        for errand in run.entry.get("errands", ())
+    ]
+
+
 def _facts(results: Results) -> list[tuple[str, str]]:
     """Return where the results come from."""
     manifest = results.manifest
     source, versions = manifest["input"], manifest["versions"]
+    memory = results.shown.entry.get("memory_from")
+    pause_s = float(results.scenario.get("memory_pause_s") or 0.0)
     return [
         ("input", f"{source['file']} ({source['format']})"),
         ("sha256", str(source["sha256"])),
         ("frame of positions", str(manifest["frame"])),
         ("seed", str(manifest["seed"])),
+        *([("memory from", f"{memory['file']}, {time_text(pause_s)} before")] if memory else []),
         ("versions", ", ".join(f"{name} {version}" for name, version in versions.items())),
     ]

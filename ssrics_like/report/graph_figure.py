@@ -40,11 +40,14 @@ class Way:
         How often it was gone.
     distance_m : float
         Mean straight distance as odometry had it.
+    closed : bool
+        Whether it was found shut and not gone since.
     """
 
     ends: tuple[str, str]
     traversals: int
     distance_m: float
+    closed: bool = False
 
 
 def ways_of(arcs: Iterable[Arc]) -> list[Way]:
@@ -55,7 +58,7 @@ def ways_of(arcs: Iterable[Arc]) -> list[Way]:
         before = joined.get(ends, Way(ends, 0, 0.0))
         n = before.traversals + arc.traversals
         total_m = before.distance_m * before.traversals + arc.distance_m * arc.traversals
-        joined[ends] = Way(ends, n, total_m / n)
+        joined[ends] = Way(ends, n, total_m / n, before.closed or arc.closed > 0)
     return sorted(joined.values(), key=lambda way: (-way.traversals, way.ends))
 
 
@@ -96,9 +99,16 @@ def draw_graph(results: Results) -> Drawing | None:
         "The topological memory: landmarks where they were declared, joined where the robot went "
         f"from one straight to the next. {thickness}; the numbers beside lines are remembered "
         "straight distances in metres, which need not agree with the map. They are written on the "
-        "ways gone most, as far as there is room.",
+        f"ways gone most, as far as there is room.{_shut(ways)}",
         tips,
     )
+
+
+def _shut(ways: list[Way]) -> str:
+    """Say what a dashed line is, if there is one."""
+    if not any(way.closed for way in ways):
+        return ""
+    return " A dashed orange line is a way that was found shut, and not gone since."
 
 
 def draw_ways(axes: Axes, ways: list[Way], places: dict[str, tuple[float, float]]) -> None:
@@ -112,8 +122,11 @@ def draw_ways(axes: Axes, ways: list[Way], places: dict[str, tuple[float, float]
     widths = [THINNEST_PT + range_pt * math.sqrt((way.traversals - 1) / most) for way in ways]
     lines = [[places[end] for end in way.ends] for way in ways]
     axes.add_collection(
-        LineCollection(lines, colors="#5d7a99", linewidths=widths, alpha=0.6, capstyle="round",
-                       zorder=3),
+        LineCollection(
+            lines, linewidths=widths, alpha=0.6, capstyle="round", zorder=3,
+            colors=["#d55e00" if way.closed else "#5d7a99" for way in ways],
+            linestyles=[(0, (2.0, 2.0)) if way.closed else "solid" for way in ways],
+        ),
         autolim=False,
     )  # fmt: skip
 
