@@ -1,7 +1,7 @@
 """How well the robot is led to landmarks, around closed doors, and finds itself when carried away.
 
     python benchmarks/bench_leading.py [--maps PLAN ...] [--buildings N] [--seeds N] [--errands N]
-                                       [--doors N] [--kidnaps N] [--jobs N]
+                                       [--doors N] [--kidnaps N] [--parts PART ...] [--jobs N]
 
 Odometry is 5 % off. In each building, generated ones and floor plans in the format of `ssrics
 bench designators --maps`, the robot explores, and then
@@ -213,9 +213,10 @@ def main() -> int:
     parser.add_argument("--maps", nargs="*", type=Path, default=[])
     parser.add_argument("--buildings", type=int, default=10)
     parser.add_argument("--seeds", type=int, default=1)
-    parser.add_argument("--errands", type=int, default=20)
+    parser.add_argument("--errands", type=int, default=28)
     parser.add_argument("--doors", type=int, default=3)
-    parser.add_argument("--kidnaps", type=int, default=25)
+    parser.add_argument("--kidnaps", type=int, default=12)
+    parser.add_argument("--parts", nargs="+", default=["goto", "closed door", "kidnapped"])
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
     drifting = replace(NOMINAL, drift=DRIFT)
@@ -227,7 +228,7 @@ def main() -> int:
                 OnPlan(plan, 3001 + 2 * seed, drifting))
                for plan in options.maps for seed in range(options.seeds)]  # fmt: skip
     counts = {"goto": options.errands, "closed door": options.doors, "kidnapped": options.kidnaps}
-    trials = [Trial(part, *place, count) for part, count in counts.items() for place in places]
+    trials = [Trial(part, *place, counts[part]) for part in options.parts for place in places]
     total: dict[tuple[str, str], Counter] = {}
     with ProcessPoolExecutor(options.jobs) as pool:
         for trial, found in pool.map(carried_out, trials):

@@ -28,6 +28,8 @@ HOME, ALL = "home", "visit-all"
 """Errands that name no landmark: back to the one that was met first, and to all there are."""
 LONGER, SLACK_M = 1.5, 4.0
 """A way that is longer than remembered by this factor and this much besides is another way."""
+ROUND, ROUND_SLACK_M = 4.0, 10.0
+"""Where no way is remembered, one may be so much longer than the straight line."""
 NEAR_M, AT_GOAL_M = 0.6, 0.3
 """So near the robot has come to a landmark on the way, and to the one where the way ends."""
 NONE = "none"
@@ -106,6 +108,8 @@ class _Now:
     next: str = ""
     limit_m: float = math.inf
     shut: set[frozenset[str]] = field(default_factory=set)
+    sought: set[str] = field(default_factory=set)
+    seeking: bool = False
 
 
 class Wayfinder:
@@ -249,15 +253,25 @@ class Wayfinder:
         return self._chunk("chosen")
 
     def _plan(self, goal: str) -> BufferChunk:
-        """Find the landmark that comes next on the shortest open way."""
-        assert self._now is not None
+        """Find the landmark that comes next on the shortest open way.
+
+        Where none is remembered, a way never gone may lead to the goal; it is looked for once.
+        """
+        now = self._now
+        assert now is not None
+        if self._place(goal) is None:
+            return self._chunk("cut-off", "no-open-way")
         route = self._routes().get(goal)
-        if route is not None and self._place(goal) is not None:
-            first = route.landmarks[min(1, len(route.landmarks) - 1)]
-            if frozenset((self._now.at, first)) not in self._now.shut:
-                self._now.next = first
+        now.seeking = False
+        if route is not None:
+            now.next = route.landmarks[min(1, len(route.landmarks) - 1)]
+            if frozenset((now.at, now.next)) not in now.shut:
                 return self._chunk("planned")
-        return self._chunk("cut-off", "no-open-way")
+        if goal in now.sought:
+            return self._chunk("cut-off", "no-open-way")
+        now.sought.add(goal)
+        now.next, now.seeking = goal, True
+        return self._chunk("planned")
 
     def _drive(self, to: str) -> BufferChunk:
         """Set the body going."""
@@ -269,6 +283,9 @@ class Wayfinder:
         start, here = self._place(now.at), self.here
         away_m = start.distance_m(here) if start is not None and here is not None else 0.0
         now.limit_m = LONGER * (path_m + away_m) + SLACK_M
+        there = self._place(to)
+        if now.seeking and there is not None and here is not None:
+            now.limit_m = ROUND * there.distance_m(here) + ROUND_SLACK_M
         return self._chunk("driving", command="drive")
 
     def _shut(self, to: str) -> BufferChunk:

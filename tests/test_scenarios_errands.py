@@ -99,8 +99,10 @@ def test_a_leg_is_one_thing():
         ({"outcome": "reached"}, "errand L3: reached after 12 s; by L1, L3"),
         (
             {"outcome": "failed", "reason": "no-open-way", "shut": ["L1-L2"]},
-            "errand L3: failed, because no way leads there that was not found shut after 12 s; "
-            "by L1, L3; found shut: L1-L2",
+            (
+                "errand L3: failed, because no way leads there that was not found shut after 12 s; "
+                "by L1, L3; found shut: L1-L2"
+            ),
         ),
         ({"outcome": ""}, "errand L3: not ended when the run was"),
         (

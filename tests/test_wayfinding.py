@@ -12,7 +12,15 @@ from ssrics_like.poses import Pose
 from ssrics_like.productions.engine import Engine
 from ssrics_like.productions.interface import Recall, StepRequest
 from ssrics_like.productions.rulebook import load_rulebook
-from ssrics_like.wayfinding import AT_GOAL_M, LONGER, NEAR_M, SLACK_M, Wayfinder
+from ssrics_like.wayfinding import (
+    AT_GOAL_M,
+    LONGER,
+    NEAR_M,
+    ROUND,
+    ROUND_SLACK_M,
+    SLACK_M,
+    Wayfinder,
+)
 
 RULES = load_rulebook(find("productions", "wayfinding"))
 PLACES = {"L1": (0.0, 0.0), "L2": (4.0, 0.0), "L3": (4.0, 3.0), "L4": (0.0, 3.0), "L5": (20.0, 0.0)}
@@ -137,6 +145,10 @@ def test_where_every_way_is_shut_the_errand_fails_with_its_reason():
     led = Led()
     led.order("L3")
     led.tell("blocked", "shut")
+    led.tell("blocked", "shut")
+    # A way that was never gone may lead there: it is looked for once.
+    assert (led.way.command.to.x_m, led.way.command.to.y_m) == PLACES["L3"]
+    assert led.way.command.limit_m == ROUND * 5.0 + ROUND_SLACK_M
     led.tell("blocked", "shut")
     assert led.way.command is None
     assert (led.errand.outcome, led.errand.reason) == ("failed", "no-open-way")

@@ -175,10 +175,11 @@ class Stage:
         self, legs: Sequence[Leg], *, doors: Sequence[DoorChange] = (),
         kidnaps: Sequence[Kidnap] = (),
     ) -> Simulation:  # fmt: skip
-        """Return a drive on it."""
+        """Return a drive on it; every one has the same randomness."""
         happenings = Disturbances(tuple(doors), tuple(kidnaps), Crowd(self.people))
+        seed = np.random.SeedSequence(self.seed.entropy, spawn_key=self.seed.spawn_key)
         return Simulation(
-            self.grid, self.robot, self.start, legs, self.seed, happenings, time_limit_s=LIMIT_S
+            self.grid, self.robot, self.start, legs, seed, happenings, time_limit_s=LIMIT_S
         )
 
 
