@@ -36,6 +36,8 @@ bench: $(VENV)/.tests
 pictures: run
 	cp out/complex/figures/map.svg docs/images/complex-map.svg
 	cp out/complex/figures/locations.svg docs/images/complex-locations.svg
+	$(BIN)/ssrics run closed-door --out out/closed-door
+	cp out/closed-door/figures/map.svg docs/images/closed-door-map.svg
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("ssrics-like needs Python 3.11 or newer, this is " + sys.version.split()[0] if sys.version_info < (3, 11) else 0)'

@@ -5,7 +5,7 @@ import json
 import pytest
 import yaml
 
-from ssrics_like.errors import SettingsError
+from ssrics_like.errors import LibraryError, SettingsError
 from ssrics_like.library import find
 from ssrics_like.report.page import write_report
 from ssrics_like.results.errands import errand_text
@@ -75,6 +75,15 @@ def test_an_errand_needs_rules_that_lead(tmp_path):
     assert "world.legs.2.goto: 'visit-all': no rule of landmark.yaml attends" in said
     assert "wayfinding" in said
     assert said.startswith(f"{tmp_path}/mine.yaml:")
+
+
+def test_a_rule_set_that_there_is_not_is_said_alone(tmp_path):
+    with pytest.raises((SettingsError, LibraryError), match="wayfindng.*did you mean 'wayfinding'"):
+        resolve(
+            make_scenario({"world": {"map": "ring.yaml", "goto": "home"}}),
+            RING.parent / "maps",
+            overrides=["productions=wayfindng"],
+        )
 
 
 def test_a_landmark_must_be_one_that_can_be_known(tmp_path):

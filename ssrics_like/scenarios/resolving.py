@@ -188,6 +188,7 @@ def resolve(
     with problems.gathered():
         perception = load_perception(at(start["perception"], scenario.perception))
         perception = changed(perception, "perception")
+    book = None
     with problems.gathered():
         book = load_productions(at(start["productions"], scenario.productions))
         engine = changed(_Engine(parameters=book.parameters), "productions")
@@ -214,7 +215,8 @@ def resolve(
             robot = changed(robot, "robot")
             place = place_of(scenario.world, robot, start, said_at)
             _check_published(scenario, place, said_at)
-            _check_errands(scenario, book, recollection, said_at)
+            if book is not None:  # else that is what is wrong
+                _check_errands(scenario, book, recollection, said_at)
     with problems.gathered():
         if scenario.humans is not None:
             load_choices(start["humans"] / scenario.humans)
