@@ -89,14 +89,17 @@ def agreement(view: NDArray[np.float32], places: NDArray[np.float32]) -> NDArray
     """
     directions = len(view) // 2
     lengths, known = places[:, :directions], places[:, directions:] < UNKNOWN_M
+    # What agrees with each length: from so short to so long.
+    short = lengths - np.maximum(SAME_M, SAME * lengths)
+    long = np.maximum(lengths + SAME_M, lengths / (1.0 - SAME))
     best = np.full(len(places), -1.0)
     for half in (0, directions // 2):
         for aside in range(-ASIDE, ASIDE + 1):
             length = np.roll(view[:directions], half + aside)
-            both = known & (np.roll(view[directions:], half + aside) < UNKNOWN_M)
-            allowed = np.maximum(SAME_M, SAME * np.maximum(lengths, length))
-            agree = np.count_nonzero(both & (np.abs(lengths - length) < allowed), axis=1)
+            seen = np.flatnonzero(np.roll(view[directions:], half + aside) < UNKNOWN_M)
+            both = known[:, seen]
+            agree = both & (length[seen] > short[:, seen]) & (length[seen] < long[:, seen])
             compared = np.count_nonzero(both, axis=1)
-            enough = compared >= FEWEST
-            np.maximum(best, np.where(enough, agree / np.maximum(compared, 1), -1.0), out=best)
+            share = np.count_nonzero(agree, axis=1) / np.maximum(compared, 1)
+            np.maximum(best, np.where(compared >= FEWEST, share, -1.0), out=best)
     return np.where(best < 0.0, np.nan, best)

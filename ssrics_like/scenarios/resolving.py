@@ -195,8 +195,7 @@ def resolve(
     with problems.gathered():
         memory = changed(load_memory(at(start["memory"], scenario.memory)), "memory")
     recollection = None
-    written_at = "" if "memory_from" in own else _place(where, ("memory_from",))
-    remembering = f"{written_at}memory_from: " if written_at else ""
+    remembering = "" if "memory_from" in own else _dotted(where, ("memory_from",))
     with problems.gathered(remembering):
         if scenario.memory_from is not None:
             there = start["memory_from"] / scenario.memory_from
@@ -215,8 +214,7 @@ def resolve(
             robot = changed(robot, "robot")
             place = place_of(scenario.world, robot, start, said_at)
             _check_published(scenario, place, said_at)
-            if book is not None:  # else that is what is wrong
-                _check_errands(scenario, book, recollection, said_at)
+            _check_errands(scenario, book, recollection, said_at)
     with problems.gathered():
         if scenario.humans is not None:
             load_choices(start["humans"] / scenario.humans)
@@ -256,7 +254,7 @@ def _check_published(
 
 def _check_errands(
     scenario: Scenario,
-    book: Rulebook,
+    book: Rulebook | None,
     recollection: Recollection | None,
     where: Callable[[settings.Key], str],
 ) -> None:
@@ -270,10 +268,9 @@ def _check_errands(
         if leg.goto is None:
             continue
         key: settings.Key = ("world", "legs", i, "goto") if world.legs else ("world", "goto")
-        place = where(key)
-        before = (
-            f"{place}: {'.'.join(map(str, key))}: " if place else f"{'.'.join(map(str, key))}: "
-        )
+        before = _dotted(where, key) or f"{'.'.join(map(str, key))}: "
+        if book is None:
+            return  # that there is no such rule set is said already
         if not book.leads:
             problems.append(
                 f"{before}'{leg.goto}': no rule of {book.path.name} attends to the buffer 'way'; "
@@ -304,6 +301,12 @@ def _by_module(values: dict[str, Any], heads: tuple[str, ...]) -> dict[str, dict
 def _place(where: Callable[[settings.Key], str] | None, key: settings.Key) -> str:
     place = where(key) if where else ""
     return f"{place}: " if place else ""
+
+
+def _dotted(where: Callable[[settings.Key], str] | None, key: settings.Key) -> str:
+    """Return where a key stands, and the key; nothing if that is not known."""
+    place = _place(where, key)
+    return f"{place}{'.'.join(map(str, key))}: " if place else ""
 
 
 def _unknown(place: str, key: str, heads: tuple[str, ...], fields: Iterable[str]) -> str:
