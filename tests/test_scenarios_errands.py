@@ -78,7 +78,9 @@ def test_an_errand_needs_rules_that_lead(tmp_path):
 
 
 def test_a_rule_set_that_there_is_not_is_said_alone(tmp_path):
-    with pytest.raises((SettingsError, LibraryError), match=r"wayfindng.*did you mean 'wayfinding'"):
+    with pytest.raises(
+        (SettingsError, LibraryError), match=r"wayfindng.*did you mean 'wayfinding'"
+    ):
         resolve(
             make_scenario({"world": {"map": "ring.yaml", "goto": "home"}}),
             RING.parent / "maps",
