@@ -61,7 +61,7 @@ def made(landmarks: int, references: int) -> SavedMemory:
     )
     nodes = tuple(
         Landmark(name, *rng.uniform(-3, 3, 3).tolist(), -3600.0, -10.0, references,
-                 {"sector": "left", "structure": "doorway", "salience": 0.75})
+                 {"sector": "left", "structure": "doorway", "novelty": 0.75})
         for name in names
     )  # fmt: skip
     arcs = tuple(

@@ -14,7 +14,13 @@ from ssrics_like.cues import read_cue, read_structure_cue
 from ssrics_like.decision import Decision
 from ssrics_like.errors import choices
 from ssrics_like.library import find_cue
-from ssrics_like.memory import DeclarativeMemory, Retrieval, SavedMemory, TopologicalMemory
+from ssrics_like.memory import (
+    DeclarativeMemory,
+    Retrieval,
+    SavedMemory,
+    TopologicalMemory,
+    Worth,
+)
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.modules import LandmarkModules
 from ssrics_like.perception.observation import Observation
@@ -143,6 +149,10 @@ class CognitiveModel:
     def topological(self) -> TopologicalMemory:
         """The landmarks and the arcs between them."""
         return self._modules.topological
+
+    def worths(self) -> dict[str, Worth]:
+        """Return salience, relevance and permanence of every landmark now, by its name."""
+        return self._modules.appraisal.worths((self._start_s or 0.0) + self.now_s)
 
     @property
     def now_s(self) -> float:

@@ -8,10 +8,10 @@ compared with where the robot expects its landmarks: see `Whereabouts`.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -25,15 +25,13 @@ from ssrics_like.memory import (
     ListedSimilarity,
     Request,
     Retrieval,
-    SurroundingsSimilarity,
-    TableSimilarity,
     TopologicalMemory,
     Uncertainty,
     Value,
     View,
-    ViewSimilarity,
     Whereabouts,
 )
+from ssrics_like.memory.appraisal import Appraisal
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.memory.whereabouts import FAR
 from ssrics_like.perception.reflex import Reflex
@@ -42,7 +40,6 @@ from ssrics_like.productions.interface import BufferChunk, MarkRequest, Recall, 
 CONTINUOUS = ("view", "place")
 VIEW_OF, PLACE_OF = "view-of-", "place-of-"
 UNSETTLED = 0.5  # a robot that is lost is not more confident than this
-SECTORS = ("left", "front", "right")
 REMEMBERED = 64  # decided reflexes whose handles rules may still use
 
 
@@ -77,14 +74,7 @@ class LandmarkModules:
             profile,
             rng,
             {
-                "sector": TableSimilarity(
-                    dict.fromkeys(itertools.combinations(SECTORS, 2), profile.sector_difference)
-                ),
-                "view": (
-                    SurroundingsSimilarity(profile.surroundings_difference)
-                    if surroundings
-                    else ViewSimilarity(profile.view_difference)
-                ),
+                **profile.similarities(surroundings=surroundings),
                 "place": ListedSimilarity(self._likeness_of_places, -FAR),
             },
         )
@@ -115,6 +105,7 @@ class LandmarkModules:
     def start_from(self, topological: TopologicalMemory) -> None:
         """Begin with a graph; where in it the robot is, it does not know."""
         self.topological = topological
+        self.appraisal = Appraisal(self.declarative, topological, self.profile.lasting_s)
         self.whereabouts = Whereabouts(self._uncertainty, topological.links)
         if len(topological):
             self.whereabouts.lose()
@@ -164,14 +155,33 @@ class LandmarkModules:
         confidence = self._confidence(found)
         self._recalled = found, confidence
         self._retrieved(t_s, found)
+        name = None if found.chunk is None else found.chunk.name
+        measure = partial(
+            self.appraisal.measure,
+            landmark=name,
+            view=next((view for _, view, no in slots if isinstance(view, View) and not no), None),
+            now_s=self._start_s + t_s,
+        )
         if found.chunk is None:
-            return Recall(None, found.latency_s, confidence)
-        name = found.chunk.name
+            return Recall(None, found.latency_s, confidence, measure)
         words = {
             slot: f"{slot}-of-{name}" if isinstance(value, View) else str(value)
             for slot, value in found.chunk.slots.items()
         }
-        return Recall(BufferChunk(found.chunk.type, words, name), found.latency_s, confidence)
+        chunk = BufferChunk(found.chunk.type, words, name)
+        return Recall(chunk, found.latency_s, confidence, measure)
+
+    def surprise(self, view: str) -> float:
+        """Return how surprising a view is among those of all landmarks (DeclarativeModule).
+
+        Raises
+        ------
+        EngineError
+            The word is no view's handle.
+        """
+        known = self._asked("view", view)
+        assert isinstance(known, View)
+        return self.appraisal.surprise(known)
 
     def harvest(self, chunk: BufferChunk, t_s: float) -> None:
         """Take a cleared chunk into declarative memory (DeclarativeModule)."""
@@ -227,7 +237,7 @@ class LandmarkModules:
             reflex.t_s,
             sector=reflex.sector,
             structure=reflex.structure,
-            salience=reflex.novelty,
+            novelty=reflex.novelty,
         )
         slots = {
             "id": name,
@@ -274,7 +284,7 @@ class LandmarkModules:
 
     def _confidence(self, recalled: Retrieval) -> float:
         """Return how probable it is that what was recalled, or that nothing was, is right."""
-        share = _share_of_odds(recalled)
+        share = recalled.share
         name = None if recalled.chunk is None else recalled.chunk.name
         return share if self.whereabouts.settled(name) else min(share, UNSETTLED)
 
@@ -363,19 +373,3 @@ class LandmarkModules:
 
 def _here(reflex: Reflex) -> Here:
     return Here(reflex.place, reflex.directed, reflex.travelled_m, reflex.turned_rad)
-
-
-def _share_of_odds(recalled: Retrieval) -> float:
-    """Return the share of what was recalled, or of nothing, in the odds of all candidates.
-
-    Activation is the logarithm of the odds that a chunk is needed (Anderson 1990), here that this
-    is the landmark, and the threshold that of the odds that it is none of them: so each has the
-    share exp(A_i) of the sum, noise aside.
-    """
-    found = recalled.candidates
-    if not math.isfinite(found.threshold):  # activation is not reckoned
-        return 1.0
-    odds = np.append(found.total - found.noise, found.threshold)
-    share = np.exp(odds - np.logaddexp.reduce(odds))
-    chosen = -1 if recalled.chunk is None or found.winner is None else found.winner
-    return float(share[chosen])

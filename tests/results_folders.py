@@ -137,7 +137,7 @@ def build(
             previous = name
         marks += [
             [run, node.id, node.t_s, node.x_m, node.y_m, node.theta_rad, node.labels["sector"],
-             "doorway", 0.8, graph.degree(node.id), -2.5 if memory else None, 2]
+             "doorway", 2.25 if memory else None, 0.5 * graph.degree(node.id), 0.75, 2]
             for node in graph.nodes
         ]  # fmt: skip
         entries.append(

@@ -43,7 +43,7 @@ def landmark(number, **changes):
         "t_s": -60.0,
         "last_visit_s": -12.5,
         "visits": 2,
-        "labels": {"sector": "left", "structure": "doorway", "salience": 0.75},
+        "labels": {"sector": "left", "structure": "doorway", "novelty": 0.75},
     }
     return Landmark(id=f"L{number}", **{**values, **changes})
 
@@ -89,9 +89,15 @@ def memories(draw):
         for name, aged in draw(st.dictionaries(st.text(max_size=5), ages, max_size=5)).items()
     )
     names = draw(st.lists(TEXT, unique=True, max_size=4))
-    labels = st.dictionaries(st.sampled_from(["sector", "salience"]), st.one_of(TEXT, NUMBERS))
+    labels = st.dictionaries(st.sampled_from(["sector", "novelty"]), st.one_of(TEXT, NUMBERS))
     landmarks = tuple(
-        Landmark(name, *draw(st.tuples(*[NUMBERS] * 5)), draw(st.integers(1, 99)), draw(labels))
+        Landmark(
+            name,
+            *draw(st.tuples(*[NUMBERS] * 5)),
+            draw(st.integers(1, 99)),
+            draw(labels),
+            *draw(st.tuples(*[st.integers(0, 9)] * 2)),
+        )
         for name in names
     )
     ends = st.tuples(st.sampled_from(names), st.sampled_from(names)) if names else st.just(None)

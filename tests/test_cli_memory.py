@@ -3,17 +3,25 @@
 import hashlib
 import json
 import math
+import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import networkx as nx
+import numpy as np
 import pytest
-from saved_memories import memory
+from saved_memories import arc, chunk, landmark, memory
 from test_cli import run
 
 from ssrics_like.errors import SettingsError
 from ssrics_like.library import folder
-from ssrics_like.memory import load_memory_file, load_topology, save_memory_file
+from ssrics_like.memory import (
+    load_memory_file,
+    load_topology,
+    save_memory_file,
+    save_topology,
+)
 from ssrics_like.results.folder import read_manifest
 from ssrics_like.scenarios.checking import check_file
 from ssrics_like.scenarios.resolving import resolve
@@ -215,7 +223,7 @@ def test_show_lists_landmarks(capsys, first):
     assert f"{count} landmarks" in lines[0]
     assert lines[2].split() == [
         "landmark", "structure", "visits", "references", "activation", "last", "seen,", "ago",
-        "degree",
+        "degree", "salience", "relevance", "permanence",
     ]  # fmt: skip
     assert [line.split()[0] for line in lines[4 : 4 + count]] == list(memory_of(first).origins)
 
@@ -226,10 +234,15 @@ def test_show_prints_json_of_any_later_moment(capsys, tmp_path):
     status, said, _ = run(capsys, "memory", "show", path, "--pause", "40", "--json")
     assert status == 0
     one, _ = json.loads(said)
+    views = [chunk(n).chunk.slots["view"].descriptor.astype(float) for n in (1, 2)]
+    correlated = max(0.0, np.corrcoef(views)[0, 1])
     assert one == {
         "landmark": "L1", "structure": "doorway", "visits": 2, "references": 2,
         "activation": round(math.log(100**-0.5 + 52.5**-0.5), 6),
         "last_seen_ago_s": 52.5, "degree": 1, "origin": "run-a/L1",
+        # Two scans, correlated by r; a dead end; it lasted 47.5 s.
+        "salience": round(math.log2(2 / (1 + math.exp(-2 * (1 - correlated)))), 6),
+        "relevance": 0, "permanence": round((47.5 + 60) / (47.5 + 60 + 52.5), 6),
     }  # fmt: skip
 
 
@@ -281,6 +294,64 @@ def test_export_is_read_by_others(capsys, tmp_path):
         assert f">{name}<" in picture
     run(capsys, "memory", "export", path, "-o", tmp_path / "again.svg")
     assert (tmp_path / "again.svg").read_text() == picture
+
+
+def measured(*steps):
+    """A memory of three landmarks declared at one place, with arcs that tell how they lie."""
+    arcs = tuple(
+        replace(arc(one, other), x_m=x_m, position_sd_m=0.1, direction_sd_rad=0.01)
+        for one, other, x_m in steps
+    )
+    here = tuple(landmark(n, x_m=1.0, y_m=2.0, theta_rad=0.0) for n in (1, 2, 3))
+    return memory(1, 2, 3, arcs=arcs, landmarks=here)
+
+
+def test_an_exported_graph_says_where_landmarks_lie_in_one_frame(capsys, tmp_path):
+    path = tmp_path / "run.json"
+    # The error of 0.3 m on the way round is shared by three arcs.
+    save_memory_file(measured((1, 2, 3.0), (2, 3, 3.0), (1, 3, 6.3)), path)
+    graphs = []
+    for ending in ("graphml", "json"):
+        out = tmp_path / f"graph.{ending}"
+        assert run(capsys, "memory", "export", path, "-o", out)[0] == 0
+        content = out.read_bytes()
+        run(capsys, "memory", "export", path, "-o", out)
+        assert out.read_bytes() == content
+        graphs.append(
+            nx.read_graphml(out) if ending == "graphml"
+            else nx.node_link_graph(json.loads(content), edges="edges")
+        )  # fmt: skip
+    for graph in graphs:
+        nodes = dict(graph.nodes(data=True))
+        assert [nodes[f"L{n}"]["layout_x_m"] for n in (1, 2, 3)] == [-2.1, 1.0, 4.1]
+        assert [node["layout_y_m"] for node in nodes.values()] == [2.0] * 3
+        assert [node["layout_theta_rad"] for node in nodes.values()] == [0.0] * 3
+        assert [node["component"] for node in nodes.values()] == [0] * 3
+        assert nodes["L3"]["x_m"] == 1.0
+
+
+@pytest.mark.parametrize("ending", ["graphml", "json"])
+def test_a_layout_is_reckoned_and_not_remembered(capsys, tmp_path, ending):
+    path, out, again = (tmp_path / name for name in ("run.json", f"a.{ending}", f"b.{ending}"))
+    saved = measured((1, 2, 3.0))
+    save_memory_file(saved, path)
+    run(capsys, "memory", "export", path, "-o", out)
+    loaded = load_topology(out)
+    for node, before in zip(loaded.nodes, saved.landmarks, strict=True):
+        assert node.labels == {**before.labels, "origin": saved.origins[node.id]}
+    save_topology(loaded, again)
+    assert "layout_x_m" not in again.read_text()
+    assert load_topology(again).nodes == loaded.nodes
+
+
+def test_a_picture_shows_landmarks_where_they_fit_best(capsys, tmp_path):
+    path, out = tmp_path / "run.json", tmp_path / "graph.svg"
+    save_memory_file(measured((1, 2, 3.0), (1, 3, -6.0)), path)
+    run(capsys, "memory", "export", path, "-o", out)
+    dot = r'id="memory-lm\d">.*?<use [^>]*x="([0-9.]+)"'
+    one, two, three = map(float, re.findall(dot, out.read_text(), re.DOTALL))
+    assert two - one > 50
+    assert one - three == pytest.approx(2 * (two - one), abs=0.05)
 
 
 def test_a_picture_of_nothing_is_drawn(capsys, tmp_path):

@@ -48,18 +48,23 @@ LATENCIES = {
 class NoMemory:
     """Recalls nothing, after a set time; keeps what it was asked and given."""
 
-    def __init__(self, latency_s=0.1, confidence=1.0):
+    def __init__(self, latency_s=0.1, confidence=1.0, surprises=None, **numbers):
         self.latency_s = latency_s
         self.confidence = confidence
+        self.surprises = surprises or {}
+        self.numbers = numbers
         self.asked = []
         self.harvested = []
 
     def recall(self, chunk_type, tests, t_s, sources):
         self.asked.append((chunk_type, tuple(tests), t_s, sources))
-        return Recall(None, self.latency_s, self.confidence)
+        return Recall(None, self.latency_s, self.confidence, self.numbers.get)
 
     def harvest(self, chunk, t_s):
         self.harvested.append((chunk, t_s))
+
+    def surprise(self, view):
+        return self.surprises.get(view, 0.0)
 
 
 class Marks:
@@ -268,6 +273,48 @@ def test_numeric_queries_compare_the_novelty_of_the_reflex(tmp_path):
     assert engine.push("orienting", reflex(1, "left", novelty=0.9), 2.0) is not None
     engine.settle()
     assert [r.event for r in marks.requests] == ["1"]
+
+
+@pytest.mark.parametrize(
+    ("query", "marked"),
+    [("salience_above 1.5", [1]), ("salience_below 1.5", [0, 2]), ("salience_above 0", [0, 1])],
+)
+def test_rules_ask_how_surprising_the_view_of_a_reflex_is(tmp_path, query, marked):
+    text = find("productions", "report").read_text()
+    path = tmp_path / "picky.yaml"
+    path.write_text(
+        text.replace(
+            "      =orienting>\n", f"      ?orienting>\n          {query}\n      =orienting>\n"
+        )
+    )
+    memory = NoMemory(surprises={"view-0": 1.5, "view-1": 3.2, "view-2": 0.0})
+    engine, marks, _ = make(path, memory)
+    for event in range(3):
+        engine.push("orienting", reflex(event, "left"), 1.0 + event)
+        engine.settle()
+    assert [r.event for r in marks.requests] == [str(event) for event in marked]
+
+
+@pytest.mark.parametrize(
+    ("query", "fires"),
+    [
+        ("salience_above 2", True),
+        ("salience_below 2", False),
+        ("salience_above 2.5", False),
+        ("salience_below 2.5", True),  # what is not above is below
+        ("relevance_above 0", False),  # a number that there is not is neither
+        ("relevance_below 1000", False),
+        ("permanence_below 0.5", True),
+    ],
+)
+def test_rules_ask_what_the_landmark_recalled_is_worth(tmp_path, query, fires):
+    text = find("productions", "landmark").read_text()
+    path = tmp_path / "asks.yaml"
+    path.write_text(text.replace("          confidence_above 0.7\n", f"          {query}\n"))
+    engine, marks, _ = make(path, NoMemory(salience=2.5, permanence=0.25))
+    engine.push("orienting", reflex(0, "left"), 1.0)
+    engine.settle()
+    assert [r.outcome for r in marks.requests] == (["declared"] if fires else [])
 
 
 def test_rules_that_never_come_to_rest_are_stopped(tmp_path):

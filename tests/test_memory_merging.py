@@ -92,6 +92,28 @@ def test_the_newer_visit_has_the_last_word():
         assert (node.visits, node.last_visit_s) == (4, -1.0)
 
 
+def test_what_one_missed_before_the_other_saw_it_counts_as_before():
+    common = memory(1)
+    last_s = common.landmarks[0].last_visit_s - 5.0
+
+    def merged(one, other):
+        """Both ways round: misses before the last visit and since."""
+        mine, yours = (
+            replace(gone_on(common, run, 5.0), landmarks=(landmark(1, **changes),))
+            for run, changes in (("b", one), ("c", other))
+        )
+        found = [merge(*both).memory.landmarks for both in ((mine, yours), (yours, mine))]
+        assert found[0] == found[1]
+        return found[0][0].missed, found[0][0].missed_since
+
+    unseen = {"last_visit_s": last_s, "missed": 1, "missed_since": 4}
+    seen = {"last_visit_s": -1.0, "visits": 4, "missed": 2, "missed_since": 1}
+    assert merged(unseen, seen) == (5, 1)
+    assert merged({**unseen, "missed_since": 0}, seen) == (2, 1)
+    # Neither has seen it since they parted; how much of what they missed is common is not known.
+    assert merged(unseen, {**unseen, "missed": 2, "missed_since": 1}) == (2, 4)
+
+
 def test_other_chunks_are_joined_if_they_are_equal_or_from_a_common_run():
     task = RememberedChunk(Chunk("task-0", "task", {"state": "watch"}), (9.0,))
     common = memory(1, chunks=(chunk(1), task))

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import networkx as nx
 import pytest
@@ -15,7 +16,7 @@ ENDINGS = [".json", ".graphml"]
 TEXT = st.text(min_size=1, max_size=6).filter(str.isprintable)
 NUMBERS = st.floats(-1e6, 1e6)
 LABELS = st.dictionaries(
-    st.sampled_from(["sector", "structure", "salience", "label", "type", "source", "key", "name"]),
+    st.sampled_from(["sector", "structure", "novelty", "label", "type", "source", "key", "name"]),
     st.one_of(TEXT, NUMBERS, st.integers(-1000, 1000), st.booleans()),
     max_size=3,
 )
@@ -31,13 +32,14 @@ def memories(draw):
         ends = draw(st.tuples(st.sampled_from(names), st.sampled_from(names)))
         measured = draw(st.tuples(st.floats(0, 1e3), st.floats(-9, 9), st.floats(0, 1e3)))
         memory.traverse(*ends, *measured)
+        memory.miss(ends[0])
         memory.visit(ends[1], draw(NUMBERS))
     return memory
 
 
 def example():
     memory = TopologicalMemory()
-    memory.add_landmark("L1", 1.23456789, -2.0, 0.5, 3.0, sector="left", salience=0.1234567)
+    memory.add_landmark("L1", 1.23456789, -2.0, 0.5, 3.0, sector="left", novelty=0.1234567)
     memory.add_landmark('Tür <2> & "co"', 4.0, 0.0, 0.0, 9.5, sector="front", gate=True)
     memory.traverse("L1", 'Tür <2> & "co"', 3.1, 0.25, 4.7)
     memory.traverse("L1", 'Tür <2> & "co"', 3.3, -0.25, 4.9)
@@ -94,7 +96,7 @@ def test_numbers_have_six_decimals_at_most(tmp_path):
     path = tmp_path / "run.json"
     save_topology(example(), path)
     node = json.loads(path.read_bytes())["nodes"][0]
-    assert (node["x_m"], node["salience"]) == (1.234568, 0.123457)
+    assert (node["x_m"], node["novelty"]) == (1.234568, 0.123457)
 
 
 def test_other_tools_read_both_files(tmp_path):
@@ -235,6 +237,29 @@ def test_ways_found_shut_are_kept(tmp_path, ending):
     assert load_topology(tmp_path / f"m.{ending}").arc("L1", "L2").closed == 1
 
 
+@pytest.mark.parametrize("ending", ["json", "graphml"])
+def test_misses_are_kept_and_a_file_from_before_they_were_counted_has_none(tmp_path, ending):
+    path = tmp_path / f"m.{ending}"
+    memory = TopologicalMemory()
+    memory.add_landmark("L1", 0.0, 0.0, 0.0, 0.0, salience=0.5)  # what novelty was called
+    memory.miss("L1")
+    memory.visit("L1", 1.0)
+    memory.miss("L1")
+    save_topology(memory, path)
+    assert load_topology(path).nodes == memory.nodes
+    text = path.read_text()
+    for name in ("missed_since", "missed"):
+        if ending == "json":
+            text = text.replace(f'"{name}": 1,', "")
+        else:
+            number = re.search(rf'<key id="(d\d+)" for="node" attr.name="{name}"', text)[1]
+            text = re.sub(rf'<(key id|data key)="{number}"[^\n]*\n', "", text)
+    path.write_text(text)
+    (old,) = load_topology(path).nodes
+    assert (old.visits, old.missed, old.missed_since) == (2, 0, 0)
+    assert old.labels == {"salience": 0.5}
+
+
 @pytest.mark.parametrize("wrong", ["-1", "0.5", '"often"'])
 def test_a_count_of_closings_that_is_none_is_refused(tmp_path, wrong):
     memory = TopologicalMemory()
@@ -245,4 +270,8 @@ def test_a_count_of_closings_that_is_none_is_refused(tmp_path, wrong):
     save_topology(memory, path)
     path.write_text(path.read_text().replace('"closed": 0', f'"closed": {wrong}'))
     with pytest.raises(MemoryFileError, match="arc from 'L1' to 'L2': closed is"):
+        load_topology(path)
+    save_topology(memory, path)
+    path.write_text(path.read_text().replace('"missed": 0', f'"missed": {wrong}'))
+    with pytest.raises(MemoryFileError, match="landmark 'L1': missed is"):
         load_topology(path)

@@ -20,7 +20,7 @@ def three():
 def test_a_landmark_is_remembered_as_it_was_marked():
     memory = TopologicalMemory()
     made = memory.add_landmark(
-        "L1", 1, 2, 3 * math.pi, 5, sector="left", salience=0.25, gate=True, note=None, other=""
+        "L1", 1, 2, 3 * math.pi, 5, sector="left", novelty=0.25, gate=True, note=None, other=""
     )
     expected = Landmark(
         id="L1",
@@ -30,7 +30,7 @@ def test_a_landmark_is_remembered_as_it_was_marked():
         t_s=5.0,
         last_visit_s=5.0,
         visits=1,
-        labels={"sector": "left", "salience": 0.25, "gate": True},
+        labels={"sector": "left", "novelty": 0.25, "gate": True},
     )
     assert made == memory["L1"] == memory.nodes[0] == expected
     assert len(memory) == 1
@@ -54,11 +54,27 @@ def test_numpys_scalars_become_pythons():
 def test_visits_are_counted_and_bring_labels_up_to_date():
     memory = three()
     memory.visit("L2", 40.0)
-    visited = memory.visit("L2", 55.0, sector="front", salience=0.5)
+    visited = memory.visit("L2", 55.0, sector="front", novelty=0.5)
     assert (visited.visits, visited.t_s, visited.last_visit_s) == (3, 10.0, 55.0)
-    assert visited.labels == {"sector": "front", "salience": 0.5}
+    assert visited.labels == {"sector": "front", "novelty": 0.5}
     assert memory["L2"] == visited
     assert [node.visits for node in memory.nodes] == [1, 3, 1]
+
+
+def test_misses_are_counted_and_lie_before_the_last_visit_once_it_is_visited():
+    memory = three()
+    for _ in range(3):
+        missed = memory.miss("L2")
+    assert (missed.missed, missed.missed_since) == (0, 3)
+    assert memory["L2"] == missed
+    assert (missed.visits, missed.last_visit_s) == (1, 10.0)
+    memory.visit("L2", 40.0)
+    memory.miss("L2")
+    visited = memory.visit("L2", 55.0)
+    assert (visited.missed, visited.missed_since) == (4, 0)
+    assert [node.missed for node in memory.nodes] == [0, 4, 0]
+    with pytest.raises(KeyError, match="no landmark 'L4'"):
+        memory.miss("L4")
 
 
 MEASUREMENTS = st.lists(
@@ -135,7 +151,8 @@ def test_unknown_landmarks_and_arcs_are_named():
         ({"closed": True}, "label 'closed' is reserved"),
         ({"visits": 3}, "label 'visits' is reserved"),
         ({"note": "a\tb"}, "expected printable text"),
-        ({"salience": math.nan}, "salience is nan"),
+        ({"novelty": math.nan}, "novelty is nan"),
+        ({"missed": 1}, "label 'missed' is reserved"),
     ],
 )
 def test_a_landmark_that_cannot_be_kept_is_refused(changed, message):

@@ -38,6 +38,7 @@ from ssrics_like.report.frames import Frame, frame_around, round_length
 from ssrics_like.report.graph_figure import ways_of
 from ssrics_like.report.labels import Room, around, legend_grid, spread
 from ssrics_like.report.map_figure import draw_map
+from ssrics_like.report.markers import describe
 from ssrics_like.report.novelty_figure import coarser
 from ssrics_like.report.pictures import Novelty, Outline
 from ssrics_like.report.plan import bounds_of
@@ -330,6 +331,31 @@ def test_the_clock_looks_the_same_in_the_legend():
 def test_the_table_of_landmarks_says_whose_positions_it_has(world_page, page):
     assert "those that the robot believed in (odometry frame)" in world_page.words
     assert "believed in" not in page.words
+
+
+def test_results_from_before_landmarks_had_these_numbers_are_read(tmp_path):
+    """Salience was novelty, relevance a count, permanence an activation or nothing."""
+    folder = build(tmp_path / "old", poses=300)
+    file = folder / "landmarks.csv"
+    header, *lines = file.read_text().splitlines()
+    old = [
+        ",".join([*line.split(",")[:-4], "0.8", "3", ("-2.5", "")[number % 2], "2"])
+        for number, line in enumerate(lines)
+    ]
+    file.write_text("\n".join([header, *old]) + "\n")
+    one, other, *_ = read_results(folder).shown.landmarks
+    assert (one.salience, one.relevance, one.permanence) == (0.8, 3.0, -2.5)
+    assert other.permanence is None
+    assert "−2.50" in Page(write_report(folder)).words
+
+
+def test_a_landmark_without_a_view_has_no_salience(tmp_path):
+    folder = build(tmp_path / "r", poses=300, memory=False)
+    landmark = read_results(folder).shown.landmarks[0]
+    assert landmark.salience is None
+    assert "salience" not in describe(landmark)
+    assert describe(replace(landmark, salience=2.254)).endswith("; salience 2.25; visits: 2")
+    assert Page(write_report(folder)).words.count("–") >= len(read_results(folder).shown.landmarks)
 
 
 def test_times_count_from_the_start(folder):

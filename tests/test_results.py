@@ -178,10 +178,11 @@ TINY_ROWS = {  # worked out by hand from the log below
         "0,1,3,11,11.765,3,4,0,,,laser,1,right,unknown,declared,L2,declare,{far},1",
         "0,2,5,21,21.104,0,0,0.5,,,laser,1,left,unknown,recognised,L1,recognise,{near},{sure}",
     ],
-    # Permanence: base levels when the last production has fired, at 21.104 s.
+    # Two views that do not correlate; two dead ends; what is sure when the last production has
+    # fired, at 21.104 s.
     "landmarks.csv": [
-        "0,L1,1,0,0,0.5,left,unknown,1,1,{both},2",
-        "0,L2,11,3,4,0,right,unknown,1,1,{one},1",
+        "0,L1,1,0,0,0.5,left,unknown,{salience},0,{both},2",
+        "0,L2,11,3,4,0,right,unknown,{salience},0,{one},1",
     ],
     "path.csv": [
         "0,0,0,0,0.5,,,", "0,1,0,0,0.5,,,", "0,10,3,4,0,,,", "0,11,3,4,0,,,",
@@ -223,8 +224,9 @@ def test_a_tiny_log_gives_the_rows_worked_out_by_hand(tmp_path):
         "far": far,
         "near": near,
         "sure": math.exp(near) / (math.exp(near) + math.exp(-6.5)),
-        "both": level(last_s, stored[0], last_s),
-        "one": level(last_s, stored[1]),
+        "salience": math.log2(2 / (1 + math.exp(-2.0))),
+        "both": (20.0 + 60.0) / (20.0 + 60.0 + last_s - 21.0),
+        "one": 60.0 / (60.0 + last_s - 11.0),
     }
     for name, expected in TINY_ROWS.items():
         lines = (out / name).read_text().splitlines()[1:]

@@ -66,6 +66,9 @@ class Nothing:
     def harvest(self, *_):
         pass
 
+    def surprise(self, _):
+        return 0.0
+
     def mark(self, _):
         raise AssertionError("nothing is to be marked")
 

@@ -45,16 +45,18 @@ def show(memory: Path, *, profile: str = "act-r", pause: float = 0.0, json: Flag
     from ssrics_like.errors import MemoryFileError
     from ssrics_like.memory import load_memory_file
     from ssrics_like.memory.summary import summarised
+    from ssrics_like.perception.surround_view import LENGTH
     from ssrics_like.results.files import json_text
     from ssrics_like.scenarios.modules import load_memory
     from ssrics_like.scenarios.remembering import one_memory_file
 
     if not (math.isfinite(pause) and pause >= 0):
         raise MemoryFileError(f"--pause: {pause:g}: expected seconds, 0 or more")
-    parameters = load_memory(profile)
+    how = load_memory(profile)
     file = one_memory_file(memory)
     saved = load_memory_file(file).aged(pause)
-    rows = summarised(saved, parameters)
+    # A file does not say what its views are of; scans of as many beams are not usual.
+    rows = summarised(saved, how, surroundings=saved.view_length == LENGTH)
     if json:
         print(json_text([asdict(row) for row in rows]), end="")
         return
@@ -116,6 +118,8 @@ def merge(first: Path, second: Path, *more: Path, out: NeededOut) -> None:
 def export(memory: Path, *, out: NeededOut) -> None:
     """Write the landmarks and the ways between them for other programs, or as a picture.
 
+    Landmarks are laid where they contradict the ways between them least.
+
     For example:
 
         ssrics memory export out/demo/ -o demo.graphml
@@ -131,6 +135,7 @@ def export(memory: Path, *, out: NeededOut) -> None:
     from ssrics_like.errors import MemoryFileError
     from ssrics_like.memory import load_memory_file
     from ssrics_like.memory.files import write_whole
+    from ssrics_like.memory.layout import layout_of
     from ssrics_like.memory.saved_file import export_graph
     from ssrics_like.report.memory_figure import memory_svg
     from ssrics_like.scenarios.remembering import one_memory_file
@@ -143,9 +148,9 @@ def export(memory: Path, *, out: NeededOut) -> None:
         raise MemoryFileError(f"{out}: would take the memory's own place; choose another name")
     saved = load_memory_file(file)
     if out.suffix == ".svg":
-        write_whole(out, memory_svg(saved).encode())
+        write_whole(out, memory_svg(saved, layout_of(saved)).encode())
     else:
-        export_graph(saved, out)
+        export_graph(saved, out, layout_of(saved))
     print(f"{out}: {_counted(saved)}")
 
 
@@ -153,25 +158,36 @@ def _table(rows: list[LandmarkSummary]) -> Table:
     from rich import box
     from rich.table import Table
 
-    from ssrics_like.report.words import figure_text, time_text
+    from ssrics_like.report.words import time_text
 
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in ("landmark", "structure"):
         table.add_column(name, no_wrap=True)
-    for name in ("visits", "references", "activation", "last seen, ago", "degree"):
+    for name in (
+        *("visits", "references", "activation", "last seen, ago", "degree"),
+        *("salience", "relevance", "permanence"),
+    ):
         table.add_column(name, justify="right", no_wrap=True)
     for row in rows:
-        level = float("nan") if row.activation is None else row.activation
         table.add_row(
             row.landmark,
             row.structure,
             str(row.visits),
             str(row.references),
-            figure_text(level, 3),
+            _figure(row.activation, 3),
             time_text(row.last_seen_ago_s),
             str(row.degree),
+            _figure(row.salience, 2),
+            _figure(row.relevance, 2),
+            _figure(row.permanence, 3),
         )
     return table
+
+
+def _figure(value: float | None, decimals: int) -> str:
+    from ssrics_like.report.words import figure_text
+
+    return figure_text(float("nan") if value is None else value, decimals)
 
 
 def _counted(memory: SavedMemory) -> str:

@@ -23,6 +23,7 @@ from ssrics_like.memory.store import load_topology, save_topology
 from ssrics_like.memory.surroundings import SurroundingsSimilarity
 from ssrics_like.memory.topological import TopologicalMemory
 from ssrics_like.memory.whereabouts import Here, Hypothesis, Uncertainty, Whereabouts
+from ssrics_like.memory.worth import Worth
 
 __all__ = [
     "Arc",
@@ -51,6 +52,7 @@ __all__ = [
     "View",
     "ViewSimilarity",
     "Whereabouts",
+    "Worth",
     "base_level",
     "load_memory_file",
     "load_topology",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -104,3 +105,19 @@ class Retrieval:
     latency_s: float
     activation: float
     candidates: Candidates
+
+    @property
+    def share(self) -> float:
+        """The share of what was recalled, or of nothing, in the odds of all candidates.
+
+        Activation is the logarithm of the odds that a chunk is needed (Anderson 1990), and the
+        threshold that of the odds that none of them is: so each has the share exp(A_i) of the sum,
+        noise aside.
+        """
+        found = self.candidates
+        if not math.isfinite(found.threshold):  # activation is not reckoned
+            return 1.0
+        odds = np.append(found.total - found.noise, found.threshold)
+        share = np.exp(odds - np.logaddexp.reduce(odds))
+        chosen = -1 if self.chunk is None or found.winner is None else found.winner
+        return float(share[chosen])

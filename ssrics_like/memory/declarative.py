@@ -215,6 +215,36 @@ class DeclarativeMemory:
             result[table.positions.used] = table.base_levels(t_s)
         return result
 
+    def likeness(
+        self, chunk_type: str, slot: str, value: Value, *, without: str | None = None
+    ) -> NDArray[np.float64]:
+        """Return how well the values of a slot would do for one, as partial matching weighs them.
+
+        Parameters
+        ----------
+        chunk_type, slot : str
+            Where the values stand.
+        value : Value
+            What they are compared with.
+        without : str, optional
+            A chunk of that type that is left out.
+
+        Returns
+        -------
+        ndarray, shape (m,)
+            ``min(0, P (M_i - max_similarity))`` for each chunk that has the slot, P being the
+            mismatch penalty, or 1 where there is none.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If the value does not suit the slot.
+        """
+        table = self._tables.get(chunk_type)
+        if table is None:
+            return np.empty(0)
+        return table.likeness(slot, value, None if without is None else self._find(without)[1])
+
     def retrieve(
         self,
         request: Request,

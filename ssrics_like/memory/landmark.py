@@ -12,10 +12,12 @@ import numpy as np
 
 Label: TypeAlias = str | int | float | bool
 
-RESERVED_LABELS = frozenset({"closed", "same_as", "component", "origin"})
-"""Kept for what later versions will say of a landmark: the same place met from another side, a
-part of the map not yet joined to the rest. `origin` is said in files of memory: where a landmark
-was declared."""
+LAYOUT_LABELS = ("layout_x_m", "layout_y_m", "layout_theta_rad", "component")
+"""What an exported graph says of a landmark beside what is remembered of it: where it lies in a
+common frame, and in which part of the graph (`layout`). It is reckoned, and so not read again."""
+RESERVED_LABELS = frozenset({"closed", "same_as", "origin", *LAYOUT_LABELS})
+"""`same_as` is kept for what later versions will say of a landmark: the same place met from another
+side. `origin` is said in files of memory: where a landmark was declared."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,10 @@ class Landmark:
     visits : int
         Number of visits, the marking included.
     labels : mapping of str to str, int, float or bool
-        What is known of it (sector, structure, salience ...).
+        What is known of it (sector, structure, novelty ...).
+    missed, missed_since : int
+        How often the robot came by where it is expected and did not mark it: before the last
+        visit, and since.
     """
 
     id: str
@@ -45,6 +50,8 @@ class Landmark:
     last_visit_s: float
     visits: int
     labels: Mapping[str, Label] = field(default_factory=dict)
+    missed: int = 0
+    missed_since: int = 0
 
 
 @dataclass(frozen=True)

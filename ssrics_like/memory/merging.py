@@ -82,9 +82,10 @@ def merge(one: SavedMemory, other: SavedMemory) -> Merged:
     other : SavedMemory
         Its landmarks that `one` has too, by their origin, are joined to those: all references,
         those from before the two parted once; the slots and labels of whichever was there last;
-        the larger number of visits. Its others get the next free numbers, in their names and
-        wherever a slot holds these. Arcs of both are kept; of one that both have, the estimate
-        with more traversals, since how much of it is from before they parted is not known.
+        the larger number of visits, and of opportunities missed. Its others get the next free
+        numbers, in their names and wherever a slot holds these. Arcs of both are kept; of one that
+        both have, the estimate with more traversals, since how much of it is from before they
+        parted is not known.
 
     Returns
     -------
@@ -145,8 +146,15 @@ def _names(one: SavedMemory, other: SavedMemory) -> tuple[dict[str, str], dict[s
 
 
 def _together(one: Landmark, other: Landmark) -> Landmark:
-    newer = other if other.last_visit_s > one.last_visit_s else one
-    return replace(newer, visits=max(one.visits, other.visits))
+    older, newer = sorted((other, one), key=lambda known: known.last_visit_s)
+    # What one of them missed after its last visit counts as before that of the other, which saw it.
+    seen_later = older.last_visit_s < newer.last_visit_s
+    return replace(
+        newer,
+        visits=max(one.visits, other.visits),
+        missed=max(newer.missed, older.missed + (older.missed_since if seen_later else 0)),
+        missed_since=max(newer.missed_since, 0 if seen_later else older.missed_since),
+    )
 
 
 def _chunks(

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from ssrics_like.memory.parameters import MemoryParameters
+from ssrics_like.memory.similarity import SlotSimilarity, TableSimilarity, ViewSimilarity
+from ssrics_like.memory.surroundings import SurroundingsSimilarity
+
+SECTORS = ("left", "front", "right")
 
 
 class MemoryProfile(MemoryParameters):
@@ -36,6 +41,9 @@ class MemoryProfile(MemoryParameters):
         Of its heading: after one metre of path, and after turning by one radian.
     wheel_bias : float
         Share by which wheels mismeasure ways and turns, where perception does not correct them.
+    lasting_s : float
+        A landmark that was seen once lasts so long or longer half of the time, seconds (see
+        `worth.permanence`).
     """
 
     title: str = ""
@@ -56,3 +64,22 @@ class MemoryProfile(MemoryParameters):
     swerve_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.001
     turn_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.001
     wheel_bias: Annotated[float, Field(ge=0, le=1)] = 0.02
+    lasting_s: Annotated[float, Field(ge=1e-3, le=1e9)] = 60.0
+
+    def similarities(self, *, surroundings: bool) -> dict[str, SlotSimilarity]:
+        """Return how the slots of landmarks compare, their places aside.
+
+        Parameters
+        ----------
+        surroundings : bool
+            Whether views are of what surrounds a place, and not of a scan.
+        """
+        pairs = itertools.combinations(SECTORS, 2)
+        return {
+            "sector": TableSimilarity(dict.fromkeys(pairs, self.sector_difference)),
+            "view": (
+                SurroundingsSimilarity(self.surroundings_difference)
+                if surroundings
+                else ViewSimilarity(self.view_difference)
+            ),
+        }

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,10 +30,13 @@ from ssrics_like.memory.files import (
     shown,
     write_whole,
 )
-from ssrics_like.memory.landmark import Landmark
+from ssrics_like.memory.landmark import LAYOUT_LABELS, Label, Landmark
 from ssrics_like.memory.saved import PastRun, RememberedChunk, SavedMemory
 from ssrics_like.memory.store import DECIMALS, from_node_link, node_link, save_topology
 from ssrics_like.memory.topological import TopologicalMemory
+
+if TYPE_CHECKING:
+    from ssrics_like.memory.layout import Placed
 
 FORMAT = "ssrics-memory"
 VERSION = 1
@@ -67,15 +70,34 @@ def load_memory_file(path: str | Path) -> SavedMemory:
     return memory_from(path, read_whole(path))
 
 
-def export_graph(memory: SavedMemory, path: str | Path) -> None:
-    """Write landmarks and arcs alone, as :func:`save_topology`; origins are labels.
+def export_graph(memory: SavedMemory, path: str | Path, layout: Mapping[str, Placed]) -> None:
+    """Write landmarks and arcs alone, as :func:`save_topology`; origins and layout are labels.
+
+    Parameters
+    ----------
+    memory : SavedMemory
+        Whose.
+    path : str or Path
+        The file; its ending names the format.
+    layout : mapping of str to Placed
+        Where each landmark lies (see `layout_of`); :func:`load_topology` leaves it out.
 
     Raises
     ------
     MemoryFileError
         For another ending than .json and .graphml, or a file that cannot be written.
     """
-    save_topology(TopologicalMemory.restored(_labelled(memory), memory.arcs), path)
+    landmarks = (
+        replace(each, labels={**each.labels, **_laid_out(layout[each.id])})
+        for each in _labelled(memory)
+    )
+    save_topology(TopologicalMemory.restored(landmarks, memory.arcs), path)
+
+
+def _laid_out(placed: Placed) -> dict[str, Label]:
+    pose = placed.pose
+    values = pose.x_m, pose.y_m, pose.theta_rad, placed.component
+    return dict(zip(LAYOUT_LABELS, values, strict=True))
 
 
 def _labelled(memory: SavedMemory) -> Iterator[Landmark]:

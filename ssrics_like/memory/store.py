@@ -26,7 +26,7 @@ from ssrics_like.memory.files import (
     read_whole,
     write_whole,
 )
-from ssrics_like.memory.landmark import NOT_LABELS, Arc, Landmark
+from ssrics_like.memory.landmark import LAYOUT_LABELS, NOT_LABELS, Arc, Landmark
 from ssrics_like.memory.topological import TopologicalMemory
 
 FORMAT = "ssrics-topology"
@@ -35,7 +35,7 @@ DECIMALS = 6
 
 ARC_NUMBERS = tuple(f.name for f in fields(Arc) if f.name not in ("from_id", "to_id"))
 LANDMARK_NUMBERS = tuple(f.name for f in fields(Landmark) if f.name not in ("id", "labels"))
-COUNTS = {"visits": 1, "traversals": 1, "closed": 0}
+COUNTS = {"visits": 1, "missed": 0, "missed_since": 0, "traversals": 1, "closed": 0}
 """Fields that are whole numbers, and the least that each can be."""
 ARC_OPTIONAL, LANDMARK_OPTIONAL = (
     frozenset(f.name for f in fields(kind) if f.default is not MISSING) for kind in (Arc, Landmark)
@@ -184,7 +184,7 @@ def _landmark(path: Path, name: Any, data: Mapping[str, Any]) -> Landmark:
         damaged(path, f"a landmark is called {name!r}, expected text")
     where = f"landmark '{name}'"
     numbers = _numbers(path, where, data, LANDMARK_NUMBERS, LANDMARK_OPTIONAL)
-    labels = {key: value for key, value in data.items() if key not in NOT_LABELS}
+    labels = {key: data[key] for key in data if key not in NOT_LABELS.union(LAYOUT_LABELS)}
     for key, value in labels.items():
         if not isinstance(value, str | bool) and not is_finite_number(value):
             damaged(path, f"landmark '{name}': {key} is {value!r}, expected text or a number")

@@ -140,6 +140,23 @@ class ChunkTable:
                 total[column.fully_similar(value)] += penalty * self._scale.different
         return total
 
+    def likeness(self, slot: str, value: Value, without: int | None) -> NDArray[np.float64]:
+        """Weigh how alike a slot's values are to one, as partial matching does, 0 for equal ones.
+
+        ``min(0, P (M_li - max_similarity))`` for each chunk that has the slot, but for the one in
+        row `without`; P is 1 where there is no partial matching. Shape (m,).
+        """
+        column = self._columns.get(slot)
+        if column is None:
+            return np.empty(0)
+        wanted = column.present.copy()
+        if without is not None:
+            wanted[without] = False
+        penalty = self._parameters.mismatch_penalty
+        weight = 1.0 if penalty is None else penalty
+        weighed = weight * (column.similarity(value)[wanted] - self._scale.equal)
+        return np.asarray(np.minimum(0.0, weighed))
+
     def occurrences(self, symbol: str) -> NDArray[np.float64]:
         """How often a symbol stands in each chunk's slots, once more for its namesake."""
         count = np.zeros(len(self))

@@ -45,6 +45,7 @@ class TopologicalMemory:
 
     def __init__(self) -> None:
         self._graph: Any = nx.DiGraph()
+        self._gone = 0  # traversals of all open ways
         self.links = Links()
 
     def __len__(self) -> int:
@@ -122,6 +123,31 @@ class TopologicalMemory:
         neighbours = {*self._graph.predecessors(landmark), *self._graph.successors(landmark)}
         return len(neighbours - {landmark})
 
+    def traversals(self, landmark: str) -> dict[str, int]:
+        """Count how often each open way at a landmark was gone, there and back together.
+
+        Returns
+        -------
+        dict of str to int
+            By the landmark at its other end; a way that is shut is left out.
+        """
+        self[landmark]
+        others = dict.fromkeys([*self._graph.succ[landmark], *self._graph.pred[landmark]])
+        gone = {other: self._gone_between(landmark, other) for other in others}
+        return {other: n for other, n in gone.items() if n > 0}
+
+    @property
+    def mean_traversals(self) -> float:
+        """How often the open ways at a landmark were gone, on the average; 0 without any."""
+        return 2.0 * self._gone / len(self) if len(self) else 0.0
+
+    def _gone_between(self, one: str, other: str) -> int:
+        """Count traversals of the way between two landmarks; 0 if it is shut, or leads nowhere."""
+        ways = [self._graph.edges[ends] for ends in self._both_ways(one, other)]
+        if one == other or any(way["closed"] for way in ways):
+            return 0
+        return sum(way["distance"].n for way in ways)
+
     def add_landmark(
         self,
         id: str,  # noqa: A002  the contract's name for it, in files as well
@@ -181,6 +207,8 @@ class TopologicalMemory:
     ) -> Landmark:
         """Count one more visit; labels given replace those of the same name.
 
+        Opportunities missed since the visit before lie before the last one now.
+
         Raises
         ------
         KeyError
@@ -194,9 +222,24 @@ class TopologicalMemory:
             visits=known.visits + 1,
             last_visit_s=finite("t_s", t_s),
             labels={**known.labels, **checked_labels(labels)},
+            missed=known.missed + known.missed_since,
+            missed_since=0,
         )
         self._graph.nodes[id]["landmark"] = visited
         return visited
+
+    def miss(self, id: str) -> Landmark:  # noqa: A002  as in add_landmark
+        """Count one opportunity at which a landmark was expected and not marked.
+
+        Raises
+        ------
+        KeyError
+            If there is no such landmark.
+        """
+        known = self[id]
+        missed = replace(known, missed_since=known.missed_since + 1)
+        self._graph.nodes[id]["landmark"] = missed
+        return missed
 
     def traverse(
         self, from_id: str, to_id: str, distance_m: float, bearing_rad: float, path_m: float
@@ -234,6 +277,7 @@ class TopologicalMemory:
             "bearing": wrapped(finite("bearing_rad", bearing_rad)),
             "path": length("path_m", path_m),
         }
+        gone = self._gone_between(from_id, to_id)
         if not self._graph.has_edge(from_id, to_id):
             self._graph.add_edge(
                 from_id,
@@ -247,6 +291,7 @@ class TopologicalMemory:
             self._graph.edges[ends]["closed"] = 0
         estimates = self._graph.edges[from_id, to_id]
         estimates.update({key: estimates[key].with_value(value) for key, value in values.items()})
+        self._gone += self._gone_between(from_id, to_id) - gone
         return self.arc(from_id, to_id)
 
     def joins(self, one: str, other: str) -> bool:
@@ -264,6 +309,7 @@ class TopologicalMemory:
         arcs = self._both_ways(one, other)
         if not arcs:
             raise KeyError(f"no arc between '{one}' and '{other}' in topological memory")
+        self._gone -= self._gone_between(one, other)
         for ends in arcs:
             self._graph.edges[ends]["closed"] += 1
 
@@ -285,17 +331,18 @@ class TopologicalMemory:
             memory._graph.add_node(landmark.id, landmark=landmark)
         for arc in arcs:
             n = arc.traversals
-            for end in (arc.from_id, arc.to_id):
+            ends = arc.from_id, arc.to_id
+            for end in ends:
                 memory[end]
+            gone = memory._gone_between(*ends)
             memory._graph.add_edge(
-                arc.from_id,
-                arc.to_id,
+                *ends,
                 distance=RunningMean.of(n, arc.distance_m, arc.distance_sd_m),
                 bearing=RunningDirection.of(n, arc.bearing_rad, arc.bearing_sd_rad),
                 path=RunningMean.of(n, arc.path_m, arc.path_sd_m),
                 closed=arc.closed,
             )
-            ends = arc.from_id, arc.to_id
+            memory._gone += memory._gone_between(*ends) - gone
             if arc.position_sd_m > 0.0 and memory.links.between(*ends) is None:
                 pose = Pose(arc.x_m, arc.y_m, arc.theta_rad)
                 variances = arc.position_sd_m**2, arc.direction_sd_rad**2

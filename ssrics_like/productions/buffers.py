@@ -16,8 +16,10 @@ from pyactr import buffers, chunks, goals, utilities
 from ssrics_like.productions.interface import (
     BufferChunk,
     DeclarativeModule,
+    Recall,
     SlotTest,
 )
+from ssrics_like.productions.vocabulary import SIDES
 
 Harvest = Callable[[BufferChunk, float], None]
 
@@ -108,8 +110,19 @@ class _ModuleBuffer(buffers.Buffer):
             self._harvest(content, time)
         self._name = None
 
+    def measure(self, name: str) -> float | None:
+        """Return the number that ``?buffer> NAME_above`` compares; None if there is none now."""
+        return None
+
     def test(self, state: str, inquiry: str) -> bool:
-        """Answer ``?buffer> state ...``."""
+        """Answer ``?buffer> state ...``, ``NAME_above x`` and ``NAME_below x``.
+
+        What is not above is below; where there is no number both are wrong.
+        """
+        name, _, side = state.rpartition("_")
+        if side in SIDES:
+            value = self.measure(name)
+            return value is not None and (value > float(inquiry)) == (side == "above")
         if inquiry == "free":
             return bool(self.state != "busy")
         return bool(self.state == inquiry)
@@ -139,18 +152,32 @@ class PushedBuffer(_ModuleBuffer):
 
 
 class OrientingBuffer(PushedBuffer):
-    """Holds the reflex that perception fired last."""
+    """Holds the reflex that perception fired last.
 
-    def test(self, state: str, inquiry: str) -> bool:
-        """Answer ``?orienting> novelty_above x`` too; an empty buffer answers no."""
-        if state in ("novelty_above", "novelty_below"):
-            content = self.content
-            if content is None:
-                return False
-            novelty = float(content.slots["novelty"])
-            limit = float(inquiry)
-            return novelty > limit if state == "novelty_above" else novelty < limit
-        return super().test(state, inquiry)
+    Parameters
+    ----------
+    types : ChunkTypes
+        Of the rule set.
+    harvest : callable or None
+        Takes cleared chunks.
+    surprise : callable
+        From the handle of a view to how surprising it is, bits.
+    """
+
+    def __init__(
+        self, types: ChunkTypes, harvest: Harvest | None, surprise: Callable[[str], float]
+    ) -> None:
+        super().__init__(types, harvest)
+        self._surprise = surprise
+
+    def measure(self, name: str) -> float | None:
+        """Return a number of the reflex; an empty buffer has none."""
+        content = self.content
+        if content is None:
+            return None
+        if name == "salience":
+            return self._surprise(content.slots["view"])
+        return float(content.slots[name])
 
 
 class RetrievalBuffer(_ModuleBuffer):
@@ -166,17 +193,13 @@ class RetrievalBuffer(_ModuleBuffer):
         super().__init__(types, harvest)
         self._module = module
         self._sources = sources
-        self._confidence: float | None = None
+        self._recall: Recall | None = None
 
-    def test(self, state: str, inquiry: str) -> bool:
-        """Answer ``?retrieval> confidence_above x`` too; before any answer it is no."""
-        if state in ("confidence_above", "confidence_below"):
-            if self._confidence is None or self.state == "busy":
-                return False
-            limit = float(inquiry)
-            above = self._confidence > limit
-            return above if state == "confidence_above" else not above
-        return super().test(state, inquiry)
+    def measure(self, name: str) -> float | None:
+        """Return a number of the last answer; before any there is none."""
+        if self._recall is None or self.state == "busy":
+            return None
+        return self._recall.confidence if name == "confidence" else self._recall.measure(name)
 
     def retrieve(
         self,
@@ -197,7 +220,7 @@ class RetrievalBuffer(_ModuleBuffer):
             tests += [SlotTest(slot, str(word), negated=True) for word in bound.negvalues]
         asked = self.types.name_of(otherchunk)
         result = self._module.recall(asked, tests, time, self._sources())
-        self._confidence = result.confidence
+        self._recall = result
         if result.chunk is None:
             return None, result.latency_s
         self._name = result.chunk.name

@@ -156,7 +156,7 @@ class Engine:
             return memory.harvest if buffer in kept else None
 
         made: dict[str, Any] = {
-            "orienting": buffers.OrientingBuffer(types, harvest("orienting")),
+            "orienting": buffers.OrientingBuffer(types, harvest("orienting"), memory.surprise),
             "landmark": buffers.AskedBuffer(
                 types,
                 harvest("landmark"),

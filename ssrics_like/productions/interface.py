@@ -6,7 +6,7 @@ protocols, so that the modules of the mind do not import one another.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -39,6 +39,10 @@ class SlotTest:
     negated: bool = False
 
 
+def _no_measure(_name: str) -> None:
+    """Say that there is no such number."""
+
+
 @dataclass(frozen=True)
 class Recall:
     """What a retrieval gave.
@@ -51,11 +55,15 @@ class Recall:
         How long it takes.
     confidence : float
         How probable it is that this outcome is right, a failure included.
+    measure : callable
+        From the name of another number of it (see ``vocabulary.BUFFERS``) to that number; None
+        where there is none. Reckoned only when a rule asks.
     """
 
     chunk: BufferChunk | None
     latency_s: float
     confidence: float = 1.0
+    measure: Callable[[str], float | None] = field(default=_no_measure, compare=False)
 
 
 class DeclarativeModule(Protocol):
@@ -72,6 +80,9 @@ class DeclarativeModule(Protocol):
 
     def harvest(self, chunk: BufferChunk, t_s: float) -> None:
         """Take in a chunk whose buffer was cleared at `t_s`."""
+
+    def surprise(self, view: str) -> float:
+        """Return how surprising a reflex's view is among those in memory, bits."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,9 @@ matches, an unknown slot silently widens the chunk type.
 
 from __future__ import annotations
 
+import math
 import re
+import sys
 from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -22,6 +24,7 @@ from ssrics_like.productions.vocabulary import (
     STEP_ACTS,
     STEP_OUTCOMES,
     WAY_EVENTS,
+    BufferKind,
 )
 
 if TYPE_CHECKING:
@@ -120,11 +123,7 @@ def _of_a_clause(book: Rulebook, clause: Clause) -> Iterator[Problem]:
         return
     if clause.sign == "?":
         for pair in clause.pairs:
-            yield from _of_a_query(pair, kind.numeric_queries)
-            if pair.slot.startswith("novelty") and "novelty" not in book.chunk_types.get(
-                "reflex", ()
-            ):
-                yield pair.line, f"query '{pair.slot}': chunk type 'reflex' has no slot 'novelty'"
+            yield from _of_a_query(book, pair, kind)
         return
     if clause.sign == "~":
         return
@@ -142,19 +141,21 @@ def _of_a_clause(book: Rulebook, clause: Clause) -> Iterator[Problem]:
             yield from _of_a_word({"event": pair}, "event", WAY_EVENTS)
 
 
-def _of_a_query(pair: Pair, numeric: tuple[str, ...]) -> Iterator[Problem]:
+def _of_a_query(book: Rulebook, pair: Pair, kind: BufferKind) -> Iterator[Problem]:
+    numeric = kind.numeric_queries
     if pair.slot in numeric:
+        most, slot = kind.measures[numeric[pair.slot]]
         try:
-            sensible = 0 <= float(pair.word) <= 1
+            sensible = 0 <= float(pair.word) <= min(most, sys.float_info.max)
         except ValueError:
             sensible = False
         if not sensible:
-            yield (
-                pair.line,
-                f"query '{pair.slot}': {pair.word!r} where a number of 0 to 1 was expected",
-            )
-        return
-    if pair.slot not in QUERIES:
+            span = "0 or more" if math.isinf(most) else f"0 to {most:g}"
+            said = f"{pair.word!r} where a number of {span} was expected"
+            yield pair.line, f"query '{pair.slot}': {said}"
+        if slot and slot not in book.chunk_types.get("reflex", ()):
+            yield pair.line, f"query '{pair.slot}': chunk type 'reflex' has no slot '{slot}'"
+    elif pair.slot not in QUERIES:
         yield pair.line, _unknown("query", pair.slot, (*QUERIES, *numeric))
     elif pair.word not in QUERIES[pair.slot]:
         yield pair.line, _unknown(f"value of query '{pair.slot}'", pair.word, QUERIES[pair.slot])

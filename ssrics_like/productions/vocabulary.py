@@ -2,7 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+
+class Measure(NamedTuple):
+    """A number that queries compare: ``NAME_above 0.5`` and ``NAME_below 0.5``.
+
+    Attributes
+    ----------
+    most : float
+        The greatest that it can be; the least is 0.
+    slot : str
+        The slot of the buffer's chunk that it is taken from; empty if it comes from elsewhere.
+    """
+
+    most: float = math.inf
+    slot: str = ""
+
+
+SIDES = ("above", "below")
 
 
 @dataclass(frozen=True)
@@ -17,15 +38,20 @@ class BufferKind:
         Whether ``+buffer>`` is allowed.
     modifies : bool
         Whether ``=buffer>`` is allowed on the right side.
-    numeric_queries : tuple of str
-        Queries that compare a number: the value in the buffer's chunk, or of what the buffer was
-        last asked, against the one given.
+    measures : mapping of str to Measure
+        Numbers that queries compare with the one given: of the buffer's chunk, or of the answer
+        to what the buffer was last asked.
     """
 
     role: str
     requests: bool = True
     modifies: bool = False
-    numeric_queries: tuple[str, ...] = ()
+    measures: Mapping[str, Measure] = field(default_factory=dict)
+
+    @property
+    def numeric_queries(self) -> Mapping[str, str]:
+        """The queries that compare a number, and which."""
+        return {f"{name}_{side}": name for name in self.measures for side in SIDES}
 
 
 BUFFERS = {
@@ -33,11 +59,16 @@ BUFFERS = {
     "orienting": BufferKind(
         "the reflex chunk that perception fires",
         requests=False,
-        numeric_queries=("novelty_above", "novelty_below"),
+        measures={"novelty": Measure(1.0, "novelty"), "salience": Measure(slot="view")},
     ),
     "retrieval": BufferKind(
         "the landmark that declarative memory recalls",
-        numeric_queries=("confidence_above", "confidence_below"),
+        measures={
+            "confidence": Measure(1.0),
+            "salience": Measure(),
+            "relevance": Measure(),
+            "permanence": Measure(1.0),
+        },
     ),
     "imaginal": BufferKind("a chunk under construction, 0.2 s", modifies=True),
     "landmark": BufferKind("decisions: marks a place, and holds the chunk of a new landmark"),

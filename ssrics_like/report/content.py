@@ -13,7 +13,7 @@ from ssrics_like.report.location_tables import locations_of
 from ssrics_like.report.markers import TIPPED_MAX
 from ssrics_like.report.records import Results
 from ssrics_like.report.style import decision_order
-from ssrics_like.report.words import number_text, percent_text, time_text
+from ssrics_like.report.words import figure_text, number_text, percent_text, time_text
 from ssrics_like.results.errands import outcome_text
 from ssrics_like.results.records import DECISIONS, Landmark, Run
 
@@ -148,7 +148,6 @@ def _positions(results: Results) -> str:
 
 def _landmark_row(index: int, mark: Landmark) -> dict[str, Any]:
     """Return a landmark's cells: what is shown, and what it is sorted by."""
-    permanence = mark.permanence
     return {
         "index": index,
         "sector": mark.sector,
@@ -160,10 +159,11 @@ def _landmark_row(index: int, mark: Landmark) -> dict[str, Any]:
             (number_text(math.degrees(mark.theta_rad), 0) + "°", mark.theta_rad, "number"),
             (mark.sector, mark.sector, "sector"),
             (mark.structure, mark.structure, "word"),
-            (f"{mark.salience:.2f}", mark.salience, "number"),
-            (str(mark.relevance), mark.relevance, "number"),
-            ("–" if permanence is None else number_text(permanence, 2),
-             -math.inf if permanence is None else permanence, "number"),
+            *(
+                (figure_text(math.nan if value is None else value),
+                 -math.inf if value is None else value, "number")
+                for value in (mark.salience, mark.relevance, mark.permanence)
+            ),
             (str(mark.visits), mark.visits, "number"),
         ],
     }  # fmt: skip

@@ -90,7 +90,7 @@ def filled(sector: str, size: float) -> dict[str, Any]:
 def describe(mark: Landmark) -> str:
     """Return a landmark's particulars in one line."""
     seen = seen_text(mark.sector, mark.structure)
+    salience = "" if mark.salience is None else f"salience {mark.salience:.2f}; "
     return (
-        f"{mark.name}: {seen}; declared at {time_text(mark.t_s)}, novelty {mark.salience:.2f}; "
-        f"visits: {mark.visits}"
+        f"{mark.name}: {seen}; declared at {time_text(mark.t_s)}; {salience}visits: {mark.visits}"
     )

@@ -155,8 +155,8 @@ def _landmark(row: Row, start_s: float) -> Landmark:
         drawn_y_m=y_m,
         sector=row["sector"],
         structure=row["structure"],
-        salience=float(row["salience"]),
-        relevance=int(row["relevance"]),
+        salience=float(row["salience"]) if row["salience"] else None,
+        relevance=float(row["relevance"]),
         permanence=float(row["permanence"]) if row["permanence"] else None,
         visits=int(row["visits"]),
     )

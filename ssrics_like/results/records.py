@@ -66,12 +66,13 @@ class Landmark:
         Where it is shown: the true position in simulation, else the same.
     sector, structure : str
         What was perceived there.
-    salience : float
-        Novelty at which it was declared.
-    relevance : int
-        Number of other landmarks it is joined to.
+    salience : float or None
+        How surprising its view is, bits; None where memory holds no view of it.
+    relevance : float
+        Entropy of the ways at it, bits, times how much they are used.
     permanence : float or None
-        Base-level activation at the end; None where memory does not hold it.
+        How probable it is, at the end, that it is still there; None in results of a version that
+        wrote its activation there, where memory did not hold it.
     visits : int
         The marking included.
     """
@@ -85,8 +86,8 @@ class Landmark:
     drawn_y_m: float
     sector: str
     structure: str
-    salience: float
-    relevance: int
+    salience: float | None
+    relevance: float
     permanence: float | None
     visits: int
 

@@ -77,22 +77,14 @@ def path_row(run: int, o: Observation) -> list[Any]:
 def landmark_rows(run: int, model: CognitiveModel) -> Iterator[list[Any]]:
     """Return the rows of landmarks.csv.
 
-    Salience is the novelty at which the landmark was declared; relevance the number of other
-    landmarks that it was reached from or left for, a choice point having three or more;
-    permanence the base-level activation of its chunk when the last production has fired, empty
-    where the rule set keeps no memory.
+    Salience, relevance and permanence are those at the end of the run; salience is empty where the
+    rule set keeps no memory.
     """
+    worths = model.worths()
     for node in model.topological.nodes:
-        permanence = (
-            model.declarative.base_level(node.id, model.engine.now_s)
-            if node.id in model.declarative
-            else None
-        )
-        labels = node.labels
         yield [
-            run, node.id, node.t_s, node.x_m, node.y_m, node.theta_rad, labels["sector"],
-            labels["structure"], labels["salience"], model.topological.degree(node.id),
-            permanence, node.visits,
+            run, node.id, node.t_s, node.x_m, node.y_m, node.theta_rad, node.labels["sector"],
+            node.labels["structure"], *worths[node.id], node.visits,
         ]  # fmt: skip
 
 
