@@ -32,8 +32,8 @@ from ssrics_like.memory import (
     Whereabouts,
 )
 from ssrics_like.memory.appraisal import Appraisal
+from ssrics_like.memory.expectation import FAR
 from ssrics_like.memory.profile import MemoryProfile
-from ssrics_like.memory.whereabouts import FAR
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.productions.interface import BufferChunk, MarkRequest, Recall, SlotTest
 
@@ -286,7 +286,7 @@ class LandmarkModules:
         """Return how probable it is that what was recalled, or that nothing was, is right."""
         share = recalled.share
         name = None if recalled.chunk is None else recalled.chunk.name
-        return share if self.whereabouts.settled(name) else min(share, UNSETTLED)
+        return share if self.whereabouts.settled(name, share) else min(share, UNSETTLED)
 
     def _likeness_of_places(self, asked: Value) -> dict[Value, float]:
         """Similarity of landmarks' places to that of a reflex, which was reckoned before."""

@@ -13,7 +13,7 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
     "world": {"errors", "compiling", "perception"},
     "designators": {"errors", "settings", "perception"},
     "maps": {"errors", "settings", "atomic", "world"},
-    "memory": {"errors", "poses"},
+    "memory": {"errors", "compiling", "poses"},
     "productions": {"errors", "library", "settings"},
     "sources": {"errors", "perception"},
     "modules": {"errors", "decision", *MIND},

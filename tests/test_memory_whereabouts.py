@@ -7,8 +7,9 @@ import pytest
 
 from ssrics_like import load_memory
 from ssrics_like.memory.base_level import base_level
+from ssrics_like.memory.expectation import ASTRAY, ASTRAY_M, FAR, Here, Uncertainty
 from ssrics_like.memory.links import Links
-from ssrics_like.memory.whereabouts import FAR, Here, Uncertainty, Whereabouts
+from ssrics_like.memory.whereabouts import SURE, Whereabouts
 from ssrics_like.poses import Pose
 
 CERTAIN = Uncertainty(0.25, 0.2, 0.0, 0.0, 0.0)
@@ -27,14 +28,19 @@ def corridor(uncertainty=CERTAIN, doors=4, apart_m=4.0):
     return whereabouts, [f"L{i + 1}" for i in range(doors)]
 
 
-def test_without_drift_a_place_is_as_probable_as_gauss_has_it():
+def density(off_m, variance_m2):
+    return 0.25**2 / variance_m2 * math.exp(-0.5 * off_m**2 / variance_m2)
+
+
+def test_without_drift_a_place_is_as_probable_as_two_gaussians_have_it():
     whereabouts, names = corridor()
     for off_m in (0.0, 0.2, 0.7):
         nats = whereabouts.expect(here(4.0 + off_m, 0.0, 0.0, 20.0), names)
         link_m2 = 2 * 0.02**2  # back along two links, as certain as a link can be
         turn_m2 = 0.005**2 * 16.0
-        variance = 0.25**2 + link_m2 + turn_m2
-        expected = 0.5 * off_m**2 / variance + math.log(variance / 0.25**2)
+        known_m2 = link_m2 + turn_m2
+        hit, astray = (density(off_m, known_m2 + sd**2) for sd in (0.25, ASTRAY_M))
+        expected = -math.log((1 - ASTRAY) * hit + ASTRAY * astray)
         assert nats["L2"] == pytest.approx(expected, rel=0.02, abs=1e-3)
         assert nats.get("L4", FAR) > 15.0
 
@@ -136,25 +142,56 @@ def test_a_robot_that_is_lost_finds_itself_by_the_gaps_between_landmarks():
     assert nats["L4"] < 4.0  # what two landmarks say of the direction is not very certain
 
 
-def test_a_robot_that_is_lost_trusts_no_single_landmark_and_gives_up_in_the_end():
-    whereabouts, names = corridor()
-    assert whereabouts.settled("L2")
+def test_the_more_landmarks_have_fitted_the_less_sure_a_lost_robot_must_be():
+    whereabouts, names = corridor(doors=9)
+    assert whereabouts.settled("L2", 0.0)
     whereabouts.lose()
-    assert whereabouts.settled(None)  # where nothing is known here, this is new
+    assert whereabouts.settled(None, 0.0)  # where nothing is known here, this is new
     evidence = dict.fromkeys(names, 0.0)
-    for i, name in enumerate(names[:2]):
-        whereabouts.expect(here(4.0 * i, 0.0, 0.0, 4.0 * i), names)
-        assert not whereabouts.settled(name)
-        whereabouts.doubt(here(4.0 * i, 0.0, 0.0, 4.0 * i), evidence, -10.0)
-        assert not whereabouts.settled(None)
-    whereabouts.expect(here(8.0, 0.0, 0.0, 8.0), names)
-    assert whereabouts.settled("L3")
-    for i in range(3, 8):  # but then nothing fits any more
+    for i, name in enumerate(names[:8]):
+        at = here(4.0 * i, 0.0, 0.0, 4.0 * i)
+        whereabouts.expect(at, names)
+        needed = 0.0 if i + 1 == 8 else SURE[min(i, 2)]
+        assert whereabouts.settled(name, needed)
+        assert needed == 0.0 or not whereabouts.settled(name, needed - 0.01)
+        whereabouts.doubt(at, evidence, -10.0)
+        assert whereabouts.settled(None, 1.0) == (i >= 2)
+        assert (whereabouts.known is not None) == (i >= 2)
+
+
+def test_a_robot_that_recognises_nothing_gives_up_in_the_end():
+    whereabouts, names = corridor()
+    whereabouts.lose()
+    whereabouts.expect(here(0.0, 0.0), names)
+    whereabouts.doubt(here(0.0, 0.0), dict.fromkeys(names, 0.0), -10.0)
+    for i in range(1, 6):
+        assert not whereabouts.settled(None, 1.0)
         far = here(100.0 * i, 0.0, 0.0, 100.0 * i)
         whereabouts.expect(far, names)
         whereabouts.doubt(far, {}, -10.0)
-    assert whereabouts.settled(None)
+    assert whereabouts.settled(None, 1.0)
     assert whereabouts.find("L9", far) is None  # it is not joined to anything
+
+
+def test_what_a_place_looks_like_counts_once_however_often_the_robot_turns_in_it():
+    whereabouts, names = corridor()
+    whereabouts.lose()
+    looks = {"L1": -1.0, "L2": -4.0, "L3": -6.0, "L4": -6.0}
+
+    def weights():
+        return {h.landmark: h.weight for h in reversed(whereabouts.hypotheses)}  # the likeliest
+
+    for travelled_m in (0.0, 3.0, 6.0):  # in and out of a room
+        at = here(0.2, 0.0, 0.0, travelled_m)
+        nats = whereabouts.expect(at, names)
+        assert nats["L1"] == pytest.approx(nats["L2"], abs=0.01)
+        assert not whereabouts.settled("L1", SURE[0] - 0.01)  # no second landmark has fitted
+        whereabouts.doubt(at, looks, -10.0)
+        assert weights()["L1"] - weights()["L2"] == pytest.approx(3.0, abs=0.05)
+    next_door = here(4.2, 0.0, 0.0, 10.0)
+    nats = whereabouts.expect(next_door, names)
+    assert min(nats, key=nats.get) == "L2"
+    assert whereabouts.settled("L2", SURE[1])
 
 
 def test_a_landmark_is_never_recalled_elsewhere_however_often_it_was_recognised():

@@ -7,6 +7,7 @@ from ssrics_like.memory.base_level import base_level
 from ssrics_like.memory.candidates import CandidateRow, Candidates, Retrieval
 from ssrics_like.memory.chunks import Chunk, Request, Value, View
 from ssrics_like.memory.declarative import DeclarativeMemory
+from ssrics_like.memory.expectation import Here, Hypothesis, Uncertainty
 from ssrics_like.memory.landmark import Arc, Landmark
 from ssrics_like.memory.parameters import MemoryParameters
 from ssrics_like.memory.routes import Route, shortest_routes
@@ -22,7 +23,7 @@ from ssrics_like.memory.similarity import (
 from ssrics_like.memory.store import load_topology, save_topology
 from ssrics_like.memory.surroundings import SurroundingsSimilarity
 from ssrics_like.memory.topological import TopologicalMemory
-from ssrics_like.memory.whereabouts import Here, Hypothesis, Uncertainty, Whereabouts
+from ssrics_like.memory.whereabouts import Whereabouts
 from ssrics_like.memory.worth import Worth
 
 __all__ = [

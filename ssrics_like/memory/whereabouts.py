@@ -9,9 +9,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import replace
 
+from ssrics_like.memory.expectation import (
+    ANYWHERE,
+    FAR,
+    PROVEN,
+    Case,
+    Here,
+    Hypothesis,
+    Uncertainty,
+    cases_anywhere,
+    cases_near,
+)
 from ssrics_like.memory.links import Link, Links
 from ssrics_like.poses import Pose
 
@@ -19,106 +29,19 @@ MOST = 300
 """Hypotheses that are gone on with."""
 BELOW = 9.0
 """A hypothesis that is so much less probable than the best (logarithm) is given up."""
-FAR = 20.0
-"""A landmark that much less probable here (logarithm) is as good as excluded; no number beyond."""
-TURN_CAP = 3.0
-"""A direction, however wrong, counts no more than this: now and then one is mismeasured."""
 ELSEWHERE = 0.05
 """Weight of the hypothesis that the robot may be anywhere, beside that of a landmark that begins a
 new part of the graph."""
+SURE = (0.95, 0.9, 0.85)
+"""So sure a robot that was lost must be of the first landmark that fits, the second, and each later
+one until its whereabouts are proven: buildings have rows of doorways that look alike."""
 ENOUGH = 3
-"""A robot that was lost knows where it is when so many landmarks in a row fit: buildings have rows
-of doorways that look alike."""
-PROVEN = 8
-"""Until so many have fitted, other hypotheses are gone on with, in case that it was a mistake."""
+"""It relies on where it believes to be when so many have fitted."""
+SAME_PLACE_M = 1.0
+"""What is perceived so near to the place marked last is the same place."""
 GIVEN_UP = 6
 """After so many landmarks in a row that it was unsure of, a robot that is lost takes the next one
 that it does not know for new: it is somewhere that it has never been."""
-UNDIRECTED_RAD2 = 10.0
-"""Variance of a direction of which nothing is known."""
-
-
-class Here(NamedTuple):
-    """Where something was perceived.
-
-    Attributes
-    ----------
-    place : Pose
-        By path integration.
-    directed : bool
-        Whether its direction is that of the place, as of a doorway, give or take half a turn.
-    travelled_m, turned_rad : float
-        Length of the path, and sum of all turns, by then.
-    """
-
-    place: Pose
-    directed: bool
-    travelled_m: float
-    turned_rad: float
-
-
-@dataclass(frozen=True)
-class Uncertainty:
-    """How well places and ways are known, standard deviations.
-
-    Attributes
-    ----------
-    place_m, direction_rad : float
-        Of where a landmark is perceived from one visit to the next, and in which direction.
-    drift : float
-        Of position, per square root of the metres of path.
-    swerve_rad, turn_rad : float
-        Of heading, per square root of the metres of path and of the radians turned.
-    bias : float
-        Share by which ways and turns are mismeasured throughout.
-    """
-
-    place_m: float
-    direction_rad: float
-    drift: float
-    swerve_rad: float
-    turn_rad: float
-    bias: float = 0.0
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """The robot was at a landmark, and came from there as path integration has it.
-
-    Attributes
-    ----------
-    landmark : str or None
-        None: it may be anywhere.
-    fix : Link
-        The landmark's frame in that of path integration.
-    at : Here
-        Where it was perceived then.
-    weight : float
-        Logarithm of the probability.
-    met : int
-        How many landmarks it has explained since the robot was lost; 3 are enough, and 8 prove it.
-    """
-
-    landmark: str | None
-    fix: Link
-    at: Here
-    weight: float
-    met: int = PROVEN
-
-
-_NOWHERE = Pose(0.0, 0.0, 0.0)
-ANYWHERE = Hypothesis(None, Link(_NOWHERE, 0.0, 0.0), Here(_NOWHERE, False, 0.0, 0.0), 0.0, 0)
-"""The robot may be at any landmark, or at none."""
-
-
-class _Case(NamedTuple):
-    """A hypothesis, and which landmark this would be."""
-
-    landmark: str
-    nats: float
-    before: Hypothesis
-    fix: Link
-    link: Link | None  # from the landmark before
 
 
 class Whereabouts:
@@ -141,7 +64,9 @@ class Whereabouts:
         self.hypotheses: tuple[Hypothesis, ...] = ()
         self._sd = uncertainty
         self._links = links
-        self._cases: list[_Case] = []
+        self._cases: list[Case] = []
+        self._marked: Pose | None = None
+        self._again = False
         self._doubts = 0
 
     @property
@@ -167,22 +92,26 @@ class Whereabouts:
     def lose(self) -> None:
         """Give up all hypotheses: the robot may be anywhere."""
         self.hypotheses = (ANYWHERE,)
+        self._marked = None
         self._doubts = 0
 
-    def settled(self, landmark: str | None) -> bool:
+    def settled(self, landmark: str | None, share: float) -> bool:
         """Tell whether the robot, if it was lost, knows enough to say which landmark this is.
 
         Parameters
         ----------
         landmark : str or None
             Which; None for a new one.
+        share : float
+            How probable that is.
         """
         likeliest = self.hypotheses[0] if self.hypotheses else ANYWHERE
         if landmark is None:
             known = likeliest.landmark is None or likeliest.met >= ENOUGH
             return known or self._doubts >= GIVEN_UP
         case = self._likeliest(landmark)
-        return (likeliest.met if case is None else case.before.met + 1) >= ENOUGH
+        met = likeliest.met if case is None else self._met(case)
+        return met >= PROVEN or (met > 0 and share >= SURE[min(met, len(SURE)) - 1])
 
     def expect(self, here: Here, landmarks: Iterable[str]) -> dict[str, float]:
         """Tell how improbable each landmark is here.
@@ -201,6 +130,11 @@ class Whereabouts:
             p0 that of perceiving it where it is, if all were known for certain; none is above 20,
             and a landmark that is not in it counts 20.
         """
+        self._again = (
+            self._marked is not None and self._marked.distance_m(here.place) < SAME_PLACE_M
+        )
+        if self._again:
+            self._look_anew()
         lost = any(hypothesis.landmark is None for hypothesis in self.hypotheses)
         names = list(landmarks) if lost else []
         around: dict[str, dict[str, Link]] = {}
@@ -210,11 +144,11 @@ class Whereabouts:
         for hypothesis in self.hypotheses:
             landmark = hypothesis.landmark
             if landmark is None:
-                cases = self._anywhere(hypothesis, here, names)
+                cases = list(cases_anywhere(hypothesis, here, names, self._sd))
             else:
                 if landmark not in around:
                     around[landmark] = self._links.seen_from(landmark)
-                cases = self._near(hypothesis, around[landmark], here)
+                cases = list(cases_near(hypothesis, around[landmark], here, self._sd))
             self._cases += cases
             for case in cases:
                 p = math.exp(hypothesis.weight - case.nats) / total
@@ -236,11 +170,12 @@ class Whereabouts:
         here, evidence, new : as for `doubt`
         """
         case = self._likeliest(landmark)
-        if case is not None and case.before.met + 1 < PROVEN:
+        if case is not None and self._met(case) < PROVEN:
             self.doubt(here, evidence, new)
             self._doubts = 0
             return None
         self._doubts = 0
+        self._marked = here.place
         if case is None:  # recognised without being expected
             self.hypotheses = (Hypothesis(landmark, Link(here.place, 0.0, 0.0), here, 0.0),)
             return None
@@ -256,13 +191,14 @@ class Whereabouts:
         The new landmark's frame is the place as it is perceived now.
         """
         self._doubts = 0
+        self._marked = here.place
         before = self.hypotheses[0] if self.hypotheses else None
         new = Hypothesis(landmark, Link(here.place, 0.0, 0.0), here, 0.0)
         if before is None or before.landmark is None or before.met < ENOUGH:
             elsewhere = replace(ANYWHERE, weight=math.log(ELSEWHERE))
             self.hypotheses = (new,) if before is None else (new, elsewhere)
             return None
-        drift = self._drift(before, here)
+        drift = self._sd.since(before, here)
         link = Link(
             here.place.seen_from(before.fix.pose),
             before.fix.variance_m2 + drift.variance_m2,
@@ -285,93 +221,35 @@ class Whereabouts:
             The same for a place that is no landmark yet.
         """
         self._doubts += 1
+        self._marked = here.place
         grown = [
             Hypothesis(
                 case.landmark, case.fix, here,
                 case.before.weight - case.nats + evidence[case.landmark],
-                min(case.before.met + 1, PROVEN),
+                self._met(case), evidence[case.landmark],
             )
             for case in self._cases if case.landmark in evidence
         ]  # fmt: skip
-        grown += [replace(h, weight=h.weight + new) for h in self.hypotheses]
+        grown += [replace(h, weight=h.weight + new, seen=0.0) for h in self.hypotheses]
         grown.sort(key=lambda hypothesis: -hypothesis.weight)
         best = grown[0].weight
         self.hypotheses = tuple(
             replace(h, weight=h.weight - best) for h in grown[:MOST] if h.weight > best - BELOW
         )
 
-    def _likeliest(self, landmark: str) -> _Case | None:
+    def _look_anew(self) -> None:
+        """Take back what the place looked like: it is seen again, and counts only once."""
+        again = [replace(h, weight=h.weight - h.seen, seen=0.0) for h in self.hypotheses]
+        best = max((h.weight for h in again), default=0.0)
+        again = [replace(h, weight=h.weight - best) for h in again]
+        self.hypotheses = tuple(sorted(again, key=lambda h: -h.weight))
+
+    def _met(self, case: Case) -> int:
+        """Return how many landmarks have fitted if this is the case; the same one counts once."""
+        same = self._again and case.before.landmark == case.landmark
+        return min(case.before.met + (0 if same else 1), PROVEN)
+
+    def _likeliest(self, landmark: str) -> Case | None:
         """Return the likeliest way in which this can be a landmark."""
         cases = (case for case in self._cases if case.landmark == landmark)
         return max(cases, key=lambda case: case.before.weight - case.nats, default=None)
-
-    def _near(self, hypothesis: Hypothesis, around: Mapping[str, Link], here: Here) -> list[_Case]:
-        """Compare the place with where each landmark is expected."""
-        sd = self._sd
-        drift = self._drift(hypothesis, here)
-        cases = []
-        for name, link in around.items():
-            expected = hypothesis.fix.and_then(link)
-            known_m2 = expected.variance_m2 + drift.variance_m2
-            variance_m2 = known_m2 + sd.place_m**2
-            squared = expected.pose.distance_m(here.place) ** 2
-            nats = 0.5 * squared / variance_m2 + math.log(variance_m2 / sd.place_m**2)
-            if nats > FAR:
-                continue
-            known_rad2 = expected.variance_rad2 + drift.variance_rad2
-            turn_rad = turn_gain = 0.0
-            fixed_rad2 = known_rad2
-            if here.directed:
-                variance_rad2 = known_rad2 + sd.direction_rad**2
-                # From the other side a doorway is the same, half a turn off.
-                turn_rad = math.remainder(here.place.theta_rad - expected.pose.theta_rad, math.pi)
-                nats += min(0.5 * turn_rad**2 / variance_rad2, TURN_CAP)
-                turn_gain = known_rad2 / variance_rad2
-                fixed_rad2 = turn_gain * sd.direction_rad**2
-            gain = known_m2 / variance_m2
-            fix = Link(
-                Pose(
-                    expected.pose.x_m + gain * (here.place.x_m - expected.pose.x_m),
-                    expected.pose.y_m + gain * (here.place.y_m - expected.pose.y_m),
-                    math.remainder(expected.pose.theta_rad + turn_gain * turn_rad, math.tau),
-                ),
-                gain * sd.place_m**2,
-                fixed_rad2,
-            )
-            measured = Link(
-                fix.pose.seen_from(hypothesis.fix.pose),
-                max(hypothesis.fix.variance_m2 + drift.variance_m2, fix.variance_m2),
-                min(hypothesis.fix.variance_rad2 + drift.variance_rad2, fix.variance_rad2),
-            ).bounded
-            cases.append(_Case(name, nats, hypothesis, fix, measured))
-        return cases
-
-    def _anywhere(self, hypothesis: Hypothesis, here: Here, names: list[str]) -> list[_Case]:
-        """Take every landmark for equally probable, from either side."""
-        sides = (0.0, math.pi) if here.directed else (0.0,)
-        nats = math.log(max(len(names), 1) * len(sides))
-        return [
-            _Case(
-                name, nats, hypothesis,
-                Link(
-                    Pose(
-                        here.place.x_m, here.place.y_m,
-                        math.remainder(here.place.theta_rad + side, math.tau),
-                    ),
-                    self._sd.place_m**2,
-                    self._sd.direction_rad**2 if here.directed else UNDIRECTED_RAD2,
-                ),
-                None,
-            )
-            for name in names for side in sides
-        ]  # fmt: skip
-
-    def _drift(self, hypothesis: Hypothesis, here: Here) -> Link:
-        """Return how uncertain path integration has become since."""
-        sd = self._sd
-        way_m = max(here.travelled_m - hypothesis.at.travelled_m, 0.0)
-        turned = max(here.turned_rad - hypothesis.at.turned_rad, 0.0)
-        variance_rad2 = sd.swerve_rad**2 * way_m + sd.turn_rad**2 * turned + (sd.bias * turned) ** 2
-        away_m = min(hypothesis.fix.pose.distance_m(here.place), 0.5 * way_m)
-        variance_m2 = sd.drift**2 * way_m + (sd.bias * way_m) ** 2 + 0.5 * variance_rad2 * away_m**2
-        return Link(Pose(0.0, 0.0, 0.0), variance_m2, variance_rad2)

@@ -1,0 +1,226 @@
+"""What a robot that believes to have been at a landmark expects to perceive where.
+
+A *hypothesis* is such a belief; a *case* is one landmark that something may be, if it is true.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ssrics_like.memory.links import Link
+from ssrics_like.poses import Pose
+
+FAR = 20.0
+"""A landmark that much less probable here (logarithm) is as good as excluded; no number beyond."""
+TURN_CAP = 3.0
+"""A direction, however wrong, counts no more than this: now and then one is mismeasured."""
+ASTRAY, ASTRAY_M = 0.05, 0.4
+"""So often a landmark is perceived astray, and how far then (standard deviation)."""
+PROVEN = 8
+"""Until so many landmarks have fitted, other hypotheses are gone on with, in case that it was a
+mistake."""
+UNDIRECTED_RAD2 = 10.0
+"""Variance of a direction of which nothing is known."""
+
+
+class Here(NamedTuple):
+    """Where something was perceived.
+
+    Attributes
+    ----------
+    place : Pose
+        By path integration.
+    directed : bool
+        Whether its direction is that of the place, as of a doorway, give or take half a turn.
+    travelled_m, turned_rad : float
+        Length of the path, and sum of all turns, by then.
+    """
+
+    place: Pose
+    directed: bool
+    travelled_m: float
+    turned_rad: float
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """How well places and ways are known, standard deviations.
+
+    Attributes
+    ----------
+    place_m, direction_rad : float
+        Of where a landmark is perceived from one visit to the next, and in which direction.
+    drift : float
+        Of position, per square root of the metres of path.
+    swerve_rad, turn_rad : float
+        Of heading, per square root of the metres of path and of the radians turned.
+    bias : float
+        Share by which ways and turns are mismeasured throughout.
+    """
+
+    place_m: float
+    direction_rad: float
+    drift: float
+    swerve_rad: float
+    turn_rad: float
+    bias: float = 0.0
+
+    def since(self, hypothesis: Hypothesis, here: Here) -> Link:
+        """Return how uncertain path integration has become since a hypothesis' landmark."""
+        way_m = max(here.travelled_m - hypothesis.at.travelled_m, 0.0)
+        turned = max(here.turned_rad - hypothesis.at.turned_rad, 0.0)
+        variance_rad2 = (
+            self.swerve_rad**2 * way_m + self.turn_rad**2 * turned + (self.bias * turned) ** 2
+        )
+        away_m = min(hypothesis.fix.pose.distance_m(here.place), 0.5 * way_m)
+        variance_m2 = (
+            self.drift**2 * way_m + (self.bias * way_m) ** 2 + 0.5 * variance_rad2 * away_m**2
+        )
+        return Link(Pose(0.0, 0.0, 0.0), variance_m2, variance_rad2)
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """The robot was at a landmark, and came from there as path integration has it.
+
+    Attributes
+    ----------
+    landmark : str or None
+        None: it may be anywhere.
+    fix : Link
+        The landmark's frame in that of path integration.
+    at : Here
+        Where it was perceived then.
+    weight : float
+        Logarithm of the probability.
+    met : int
+        How many landmarks it has explained since the robot was lost; `PROVEN` at most.
+    seen : float
+        What of the weight is due to how the last place marked looked, and how familiar it is.
+    """
+
+    landmark: str | None
+    fix: Link
+    at: Here
+    weight: float
+    met: int = PROVEN
+    seen: float = 0.0
+
+
+_NOWHERE = Pose(0.0, 0.0, 0.0)
+ANYWHERE = Hypothesis(None, Link(_NOWHERE, 0.0, 0.0), Here(_NOWHERE, False, 0.0, 0.0), 0.0, 0)
+"""The robot may be at any landmark, or at none."""
+
+
+class Case(NamedTuple):
+    """A hypothesis, and which landmark this would be.
+
+    Attributes
+    ----------
+    landmark : str
+        Which.
+    nats : float
+        Minus the logarithm of how probable it is to perceive it here.
+    before : Hypothesis
+        The hypothesis.
+    fix : Link
+        The landmark's frame in that of path integration, now that it was perceived here.
+    link : Link or None
+        The landmark's frame in that of the one before; None if that is not known.
+    """
+
+    landmark: str
+    nats: float
+    before: Hypothesis
+    fix: Link
+    link: Link | None
+
+
+def cases_near(
+    hypothesis: Hypothesis, around: Mapping[str, Link], here: Here, sd: Uncertainty
+) -> Iterator[Case]:
+    """Compare where something is perceived with where each landmark is expected.
+
+    Parameters
+    ----------
+    hypothesis : Hypothesis
+        Of a landmark.
+    around : mapping of str to Link
+        Where others lie, seen from there.
+    here : Here
+        What was perceived.
+    sd : Uncertainty
+        How well that is known.
+
+    Yields
+    ------
+    Case
+        Those that are not as good as excluded.
+    """
+    drift = sd.since(hypothesis, here)
+    for name, link in around.items():
+        expected = hypothesis.fix.and_then(link)
+        known_m2 = expected.variance_m2 + drift.variance_m2
+        off_m2 = expected.pose.distance_m(here.place) ** 2
+        nats = _nats_of_place(off_m2, known_m2, sd.place_m**2)
+        if nats > FAR:
+            continue
+        known_rad2 = expected.variance_rad2 + drift.variance_rad2
+        turn_rad = turn_gain = 0.0
+        fixed_rad2 = known_rad2
+        if here.directed:
+            variance_rad2 = known_rad2 + sd.direction_rad**2
+            # From the other side a doorway is the same, half a turn off.
+            turn_rad = math.remainder(here.place.theta_rad - expected.pose.theta_rad, math.pi)
+            nats += min(0.5 * turn_rad**2 / variance_rad2, TURN_CAP)
+            turn_gain = known_rad2 / variance_rad2
+            fixed_rad2 = turn_gain * sd.direction_rad**2
+        gain = known_m2 / (known_m2 + sd.place_m**2)
+        fix = Link(
+            Pose(
+                expected.pose.x_m + gain * (here.place.x_m - expected.pose.x_m),
+                expected.pose.y_m + gain * (here.place.y_m - expected.pose.y_m),
+                math.remainder(expected.pose.theta_rad + turn_gain * turn_rad, math.tau),
+            ),
+            gain * sd.place_m**2,
+            fixed_rad2,
+        )
+        measured = Link(
+            fix.pose.seen_from(hypothesis.fix.pose),
+            max(hypothesis.fix.variance_m2 + drift.variance_m2, fix.variance_m2),
+            min(hypothesis.fix.variance_rad2 + drift.variance_rad2, fix.variance_rad2),
+        ).bounded
+        yield Case(name, nats, hypothesis, fix, measured)
+
+
+def _nats_of_place(off_m2: float, known_m2: float, place_m2: float) -> float:
+    """Return minus the logarithm of a density, of a place known for certain and hit being 1."""
+
+    def nats(variance_m2: float) -> float:
+        return 0.5 * off_m2 / variance_m2 + math.log(variance_m2 / place_m2)
+
+    return -float(
+        np.logaddexp(
+            math.log(1.0 - ASTRAY) - nats(known_m2 + place_m2),
+            math.log(ASTRAY) - nats(known_m2 + max(ASTRAY_M**2, place_m2)),
+        )
+    )
+
+
+def cases_anywhere(
+    hypothesis: Hypothesis, here: Here, names: Collection[str], sd: Uncertainty
+) -> Iterator[Case]:
+    """Take every landmark for equally probable, from either side."""
+    sides = (0.0, math.pi) if here.directed else (0.0,)
+    nats = math.log(max(len(names), 1) * len(sides))
+    place = here.place
+    variance_rad2 = sd.direction_rad**2 if here.directed else UNDIRECTED_RAD2
+    for name in names:
+        for side in sides:
+            turned = Pose(place.x_m, place.y_m, math.remainder(place.theta_rad + side, math.tau))
+            yield Case(name, nats, hypothesis, Link(turned, sd.place_m**2, variance_rad2), None)
