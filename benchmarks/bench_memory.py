@@ -18,6 +18,7 @@ import numpy as np
 from ssrics_like.memory import (
     Chunk,
     DeclarativeMemory,
+    Listed,
     ListedSimilarity,
     MemoryParameters,
     Request,
@@ -62,18 +63,18 @@ def similarity(slot: str, requested: Any, held: Any) -> float:
         r = float(one @ other) / math.sqrt(float(one @ one) * float(other @ other))
         return max(r, 0.0) - 1
     if slot == "place":
-        return likeness_of_places(requested).get(held, FAR)
+        return likeness_of_places(requested).similarities.get(held, FAR)
     return 0.0 if requested == held else -1.0
 
 
-def likeness_of_places(requested: Any) -> dict[Any, float]:
+def likeness_of_places(requested: Any) -> Listed:
     del requested
-    return {f"place-of-L{number}": -0.01 * number for number in range(EXPECTED)}
+    return Listed({f"place-of-L{number}": -0.01 * number for number in range(EXPECTED)}, FAR)
 
 
 def fill(landmarks: int, references: int) -> tuple[DeclarativeMemory, LoopMemory, Request, float]:
     rng = np.random.default_rng(0)
-    similarities = {"view": ViewSimilarity(), "place": ListedSimilarity(likeness_of_places, FAR)}
+    similarities = {"view": ViewSimilarity(), "place": ListedSimilarity(likeness_of_places)}
     memory = DeclarativeMemory(PARAMETERS, np.random.default_rng(1), similarities)
     loop = LoopMemory()
     adding_s = 0.0

@@ -117,6 +117,18 @@ def visited(visits: Visits) -> tuple[str, list[list[RecognitionTally]]]:
     ]  # fmt: skip
 
 
+def tallied(visits: list[Visits], jobs: int | None) -> dict[tuple[str, int, int], RecognitionTally]:
+    """Go through all buildings; counts by course, visit and model (index into MODELS)."""
+    total: dict[tuple[str, int, int], RecognitionTally] = {}
+    with ProcessPoolExecutor(jobs) as pool:
+        for course, models in pool.map(visited, visits):
+            for model, tallies in enumerate(models):
+                for visit, tally in enumerate(tallies):
+                    key = (course, visit, model)
+                    total[key] = total.get(key, RecognitionTally()) + tally
+    return total
+
+
 def courses(options: argparse.Namespace) -> list[Visits]:
     drifting = replace(NOMINAL, drift=DRIFT)
     made = [
@@ -164,13 +176,7 @@ def main() -> int:
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
-    total: dict[tuple[str, int, int], RecognitionTally] = {}
-    with ProcessPoolExecutor(options.jobs) as pool:
-        for course, models in pool.map(visited, courses(options)):
-            for model, tallies in enumerate(models):
-                for visit, tally in enumerate(tallies):
-                    key = (course, visit, model)
-                    total[key] = total.get(key, RecognitionTally()) + tally
+    total = tallied(courses(options), options.jobs)
     print("| " + " | ".join(HEAD) + " |")
     print("|" + "---|" * len(HEAD))
     for (course, visit, model), tally in total.items():

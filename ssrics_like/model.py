@@ -200,6 +200,9 @@ class CognitiveModel:
         self.engine.advance(now_s)
         for reflex in self.perception.update(observation):
             self._orient(reflex, now_s)
+        here = self.perception.here
+        if here is not None and self.perception.carried == self._modules.carried:
+            self._modules.go(here, self.perception.travelled_m)
         self.wayfinder.look(observation.t_s)
         return self._take()
 

@@ -20,8 +20,10 @@ from ssrics_like.errors import EngineError
 from ssrics_like.memory import (
     Chunk,
     DeclarativeMemory,
+    Expected,
     Here,
     Hypothesis,
+    Listed,
     ListedSimilarity,
     Request,
     Retrieval,
@@ -32,9 +34,10 @@ from ssrics_like.memory import (
     Whereabouts,
 )
 from ssrics_like.memory.appraisal import Appraisal
-from ssrics_like.memory.expectation import FAR
+from ssrics_like.memory.passing import Passing
 from ssrics_like.memory.profile import MemoryProfile
 from ssrics_like.perception.reflex import Reflex
+from ssrics_like.poses import Pose
 from ssrics_like.productions.interface import BufferChunk, MarkRequest, Recall, SlotTest
 
 CONTINUOUS = ("view", "place")
@@ -75,7 +78,7 @@ class LandmarkModules:
             rng,
             {
                 **profile.similarities(surroundings=surroundings),
-                "place": ListedSimilarity(self._likeness_of_places, -FAR),
+                "place": ListedSimilarity(self._likeness_of_places),
             },
         )
         self._uncertainty = Uncertainty(
@@ -86,7 +89,7 @@ class LandmarkModules:
             turn_rad=profile.turn_drift_rad,
             bias=profile.wheel_bias,
         )
-        self._expected: dict[str, float] = {}
+        self._expected = Expected()
         self._asked_for: tuple[int, tuple[Hypothesis, ...]] | None = None
         self.start_from(TopologicalMemory())
         self._decided = decided
@@ -107,12 +110,18 @@ class LandmarkModules:
         self.topological = topological
         self.appraisal = Appraisal(self.declarative, topological, self.profile.lasting_s)
         self.whereabouts = Whereabouts(self._uncertainty, topological.links)
+        self._passing = Passing(topological.links)
         if len(topological):
             self.whereabouts.lose()
 
     def begin(self, start_s: float) -> None:
         """Set the source's time that is zero in the engine."""
         self._start_s = start_s
+
+    def go(self, here: Pose, travelled_m: float) -> None:
+        """Note where the robot is by path integration; landmarks passed unseen are missed."""
+        for landmark in self._passing.go(here, travelled_m, self.whereabouts.known):
+            self.topological.miss(landmark)
 
     def admit(self, reflex: Reflex) -> BufferChunk:
         """Register a reflex and return its chunk for the orienting buffer."""
@@ -210,6 +219,8 @@ class LandmarkModules:
         if request.outcome == "recognised" and name not in self.topological:
             raise EngineError(f"recognises '{name}', which is no landmark")
         made = None
+        if request.outcome != "dismissed":
+            self._passing.marked(reflex.place)
         if request.outcome == "declared":
             name = self.topological.next_id()
             made = self._declare(name, reflex)
@@ -250,7 +261,10 @@ class LandmarkModules:
 
     def _arrive(self, name: str, reflex: Reflex, before: Hypothesis | None, *, new: bool) -> None:
         """Note in the graph that the robot came to a landmark, if it was at another before."""
-        if before is None or before.landmark is None or before.landmark == name:
+        if before is None or before.landmark is None:
+            return
+        if before.landmark == name:
+            self.topological.confirm(name, reflex.t_s)
             return
         start, end = before.at.place, reflex.place
         self.topological.traverse(
@@ -277,7 +291,7 @@ class LandmarkModules:
             return {}, 0.0
         found = self._recalled[0].candidates
         evidence = {
-            str(name): float(total - noise) + self._expected.get(str(name), FAR)
+            str(name): float(total - noise) + self._expected[str(name)]
             for name, total, noise in zip(found.names, found.total, found.noise, strict=True)
         }
         return evidence, found.threshold
@@ -288,10 +302,13 @@ class LandmarkModules:
         name = None if recalled.chunk is None else recalled.chunk.name
         return share if self.whereabouts.settled(name, share) else min(share, UNSETTLED)
 
-    def _likeness_of_places(self, asked: Value) -> dict[Value, float]:
+    def _likeness_of_places(self, asked: Value) -> Listed:
         """Similarity of landmarks' places to that of a reflex, which was reckoned before."""
         del asked
-        return {f"{PLACE_OF}{name}": -nats for name, nats in self._expected.items()}
+        near: dict[Value, float] = {
+            f"{PLACE_OF}{name}": -nats for name, nats in self._expected.nats.items()
+        }
+        return Listed(near, -self._expected.elsewhere)
 
     def _asked(self, slot: str, word: str) -> Value:
         """Look up what a request asks for; only views and places are more than words."""
@@ -300,7 +317,8 @@ class LandmarkModules:
         if slot == "view" and (stored := self._stored_view(word)) is not None:
             return stored
         if slot == "place" and word.startswith(PLACE_OF):  # where a landmark is, no other is
-            self._asked_for, self._expected = None, {word.removeprefix(PLACE_OF): 0.0}
+            self._asked_for = None
+            self._expected = Expected({word.removeprefix(PLACE_OF): 0.0})
             return word
         reflex = self._reflex_of(slot, word)
         if slot == "view":

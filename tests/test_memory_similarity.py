@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from ssrics_like.memory import (
     FunctionSimilarity,
+    Listed,
     ListedSimilarity,
     TableSimilarity,
     View,
@@ -146,7 +147,7 @@ def test_replacing_a_view_changes_what_it_is_similar_to():
 
 def test_listed_values_have_the_similarity_of_the_moment_and_all_others_another():
     now = {"L1": -0.5, "L9": -0.1}
-    column = filled(ListedSimilarity(lambda asked: now if asked == "here" else {}, -20.0),
+    column = filled(ListedSimilarity(lambda asked: Listed(now if asked == "here" else {}, -20.0)),
                     ["L1", None, "L2"])  # fmt: skip
     assert column.similarity("here")[[0, 2]].tolist() == [-0.5, -20.0]
     assert column.similarity("there")[[0, 2]].tolist() == [-20.0, -20.0]

@@ -7,7 +7,7 @@ from ssrics_like.memory.base_level import base_level
 from ssrics_like.memory.candidates import CandidateRow, Candidates, Retrieval
 from ssrics_like.memory.chunks import Chunk, Request, Value, View
 from ssrics_like.memory.declarative import DeclarativeMemory
-from ssrics_like.memory.expectation import Here, Hypothesis, Uncertainty
+from ssrics_like.memory.expectation import Expected, Here, Hypothesis, Uncertainty
 from ssrics_like.memory.landmark import Arc, Landmark
 from ssrics_like.memory.parameters import MemoryParameters
 from ssrics_like.memory.routes import Route, shortest_routes
@@ -15,6 +15,7 @@ from ssrics_like.memory.saved import PastRun, RememberedChunk, SavedMemory
 from ssrics_like.memory.saved_file import load_memory_file, save_memory_file
 from ssrics_like.memory.similarity import (
     FunctionSimilarity,
+    Listed,
     ListedSimilarity,
     SlotSimilarity,
     TableSimilarity,
@@ -32,10 +33,12 @@ __all__ = [
     "Candidates",
     "Chunk",
     "DeclarativeMemory",
+    "Expected",
     "FunctionSimilarity",
     "Here",
     "Hypothesis",
     "Landmark",
+    "Listed",
     "ListedSimilarity",
     "MemoryParameters",
     "PastRun",

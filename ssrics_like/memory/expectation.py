@@ -6,8 +6,8 @@ A *hypothesis* is such a belief; a *case* is one landmark that something may be,
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -141,6 +141,29 @@ class Case(NamedTuple):
     link: Link | None
 
 
+@dataclass(frozen=True)
+class Expected:
+    """How improbable each landmark is in a place: ``-ln(p / p0)``, `FAR` at most.
+
+    p is the probability density of perceiving it there, p0 that of perceiving it where it is, if
+    all were known for certain.
+
+    Attributes
+    ----------
+    nats : mapping of str to float
+        By landmark, of those that are expected somewhere near.
+    elsewhere : float
+        The same for each of all others.
+    """
+
+    nats: Mapping[str, float] = field(default_factory=dict)
+    elsewhere: float = FAR
+
+    def __getitem__(self, landmark: str) -> float:
+        """Return how improbable a landmark is."""
+        return self.nats.get(landmark, self.elsewhere)
+
+
 def cases_near(
     hypothesis: Hypothesis, around: Mapping[str, Link], here: Here, sd: Uncertainty
 ) -> Iterator[Case]:
@@ -163,13 +186,17 @@ def cases_near(
         Those that are not as good as excluded.
     """
     drift = sd.since(hypothesis, here)
+    # Seen from the landmark before; most lie far from there, and are done with quickly.
+    seen = here.place.seen_from(hypothesis.fix.pose)
     for name, link in around.items():
-        expected = hypothesis.fix.and_then(link)
-        known_m2 = expected.variance_m2 + drift.variance_m2
-        off_m2 = expected.pose.distance_m(here.place) ** 2
+        known_m2 = hypothesis.fix.variance_m2_after(link) + drift.variance_m2
+        off_m2 = (seen.x_m - link.pose.x_m) ** 2 + (seen.y_m - link.pose.y_m) ** 2
+        if off_m2 > 2.0 * FAR * (known_m2 + max(ASTRAY_M, sd.place_m) ** 2):
+            continue
         nats = _nats_of_place(off_m2, known_m2, sd.place_m**2)
         if nats > FAR:
             continue
+        expected = hypothesis.fix.and_then(link)
         known_rad2 = expected.variance_rad2 + drift.variance_rad2
         turn_rad = turn_gain = 0.0
         fixed_rad2 = known_rad2
@@ -213,14 +240,13 @@ def _nats_of_place(off_m2: float, known_m2: float, place_m2: float) -> float:
 
 
 def cases_anywhere(
-    hypothesis: Hypothesis, here: Here, names: Collection[str], sd: Uncertainty
+    hypothesis: Hypothesis, here: Here, landmark: str, of: int, sd: Uncertainty
 ) -> Iterator[Case]:
-    """Take every landmark for equally probable, from either side."""
+    """Take a landmark for as probable as every other of so many, from either side."""
     sides = (0.0, math.pi) if here.directed else (0.0,)
-    nats = math.log(max(len(names), 1) * len(sides))
+    nats = math.log(of * len(sides))
     place = here.place
     variance_rad2 = sd.direction_rad**2 if here.directed else UNDIRECTED_RAD2
-    for name in names:
-        for side in sides:
-            turned = Pose(place.x_m, place.y_m, math.remainder(place.theta_rad + side, math.tau))
-            yield Case(name, nats, hypothesis, Link(turned, sd.place_m**2, variance_rad2), None)
+    for side in sides:
+        turned = Pose(place.x_m, place.y_m, math.remainder(place.theta_rad + side, math.tau))
+        yield Case(landmark, nats, hypothesis, Link(turned, sd.place_m**2, variance_rad2), None)

@@ -32,7 +32,7 @@ class Landmark:
         Pose of the robot when it first marked the place, as estimated then, in the frame
         of whoever added it. Radians within (-pi, pi], counter-clockwise.
     t_s, last_visit_s : float
-        When it was marked, and last visited; seconds.
+        When it was marked, and last seen to be there; seconds.
     visits : int
         Number of visits, the marking included.
     labels : mapping of str to str, int, float or bool

@@ -9,6 +9,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from ssrics_like.poses import Pose
@@ -17,6 +18,8 @@ LEAST_M, LEAST_RAD = 0.02, 0.005
 """However often a way was gone, it is not known better (standard deviations)."""
 HORIZON = 500
 """So many landmarks are expected somewhere, those first whose places are most certain."""
+KEPT = 64
+"""Landmarks from which was looked since something was learned: it is asked again at every step."""
 
 
 class Link(NamedTuple):
@@ -42,12 +45,16 @@ class Link(NamedTuple):
 
     def and_then(self, onward: Link) -> Link:
         """Return where one gets by another link; an error in direction grows with its length."""
-        length2 = onward.pose.x_m**2 + onward.pose.y_m**2
         return Link(
             self.pose.onward(onward.pose),
-            self.variance_m2 + onward.variance_m2 + self.variance_rad2 * length2,
+            self.variance_m2_after(onward),
             self.variance_rad2 + onward.variance_rad2,
         )
+
+    def variance_m2_after(self, onward: Link) -> float:
+        """Return the variance of where one gets by another link."""
+        length2 = onward.pose.x_m**2 + onward.pose.y_m**2
+        return self.variance_m2 + onward.variance_m2 + self.variance_rad2 * length2
 
     def averaged_with(self, other: Link) -> Link:
         """Return the mean of two estimates, each weighted by its certainty (Kalman 1960)."""
@@ -80,6 +87,7 @@ class Links:
 
     def __init__(self) -> None:
         self._from: dict[str, dict[str, Link]] = {}
+        self._seen: dict[tuple[str, int], Mapping[str, Link]] = {}
 
     def between(self, one: str, other: str) -> Link | None:
         """Return where `other` lies, seen from `one`; None if that was never measured."""
@@ -98,11 +106,12 @@ class Links:
         if not (link.variance_m2 > 0.0 and link.variance_rad2 > 0.0):
             raise ValueError(f"from '{one}' to '{other}': a variance is not above 0")
         known = self.between(one, other)
+        self._seen.clear()
         joined = (link if known is None else known.averaged_with(link)).bounded
         self._from.setdefault(one, {})[other] = joined
         self._from.setdefault(other, {})[one] = joined.reversed
 
-    def seen_from(self, landmark: str, most: int = HORIZON) -> dict[str, Link]:
+    def seen_from(self, landmark: str, most: int = HORIZON) -> Mapping[str, Link]:
         """Return where landmarks lie, seen from one, each by the way of least variance (Dijkstra).
 
         Parameters
@@ -112,16 +121,23 @@ class Links:
         most : int
             So many landmarks at most, the most certain ones.
         """
+        if (known := self._seen.get((landmark, most))) is not None:
+            return known
         found: dict[str, Link] = {}
         order = itertools.count()  # of equal variances the first come counts
-        waiting = [(0.0, next(order), landmark, HERE)]
+        waiting = [(0.0, next(order), landmark, HERE, HERE)]
+        least = {landmark: 0.0}
         while waiting and len(found) < most:
-            _, _, name, link = heapq.heappop(waiting)
+            _, _, name, before, onward = heapq.heappop(waiting)
             if name in found:
                 continue
-            found[name] = link
-            for neighbour, onward in self._from.get(name, {}).items():
-                if neighbour not in found:
-                    there = link.and_then(onward)
-                    heapq.heappush(waiting, (there.variance_m2, next(order), neighbour, there))
+            found[name] = link = before.and_then(onward)
+            for neighbour, further in self._from.get(name, {}).items():
+                variance_m2 = link.variance_m2_after(further)
+                if neighbour not in found and variance_m2 < least.get(neighbour, math.inf):
+                    least[neighbour] = variance_m2
+                    heapq.heappush(waiting, (variance_m2, next(order), neighbour, link, further))
+        if len(self._seen) >= KEPT:
+            self._seen.clear()
+        self._seen[landmark, most] = found
         return found

@@ -7,7 +7,10 @@ compares. So one description serves several memories and several chunk types.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Protocol
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ssrics_like.memory.chunks import Value
 from ssrics_like.memory.columns import CodedColumn, SimilarityScale, SlotColumn
@@ -101,28 +104,52 @@ class ViewSimilarity:
         return ViewColumn(slot, scale)
 
 
+class Listed(NamedTuple):
+    """Similarities to one value.
+
+    Attributes
+    ----------
+    similarities : mapping
+        Of a few values.
+    otherwise : float
+        Of every other.
+    """
+
+    similarities: Mapping[Value, float]
+    otherwise: float
+
+
 class ListedSimilarity:
     """Similarities that are reckoned anew for each request, of a few values of many.
 
     Parameters
     ----------
     listed : callable
-        From the requested value to the similarities of other values.
-    otherwise : float
-        Similarity of every value that is not listed.
+        From the requested value to the similarities of all others.
     """
 
-    def __init__(self, listed: Callable[[Value], Mapping[Value, float]], otherwise: float) -> None:
+    def __init__(self, listed: Callable[[Value], Listed]) -> None:
         self._listed = listed
-        self._otherwise = otherwise
 
     def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
         """Make an empty column for the slot of that name."""
-        return CodedColumn(slot, scale._replace(different=self._otherwise), self._exceptions)
+        return ListedColumn(slot, scale, self._listed)
 
-    def _exceptions(
-        self, requested: Value, codes: Mapping[Value, int]
-    ) -> Iterator[tuple[int, float]]:
-        for value, similarity in self._listed(requested).items():
-            if value in codes:
-                yield codes[value], similarity
+
+class ListedColumn(CodedColumn):
+    """Values of which a few are listed for each request."""
+
+    def __init__(
+        self, slot: str, scale: SimilarityScale, listed: Callable[[Value], Listed]
+    ) -> None:
+        super().__init__(slot, scale)
+        self._listed = listed
+
+    def similarity(self, requested: Value) -> NDArray[np.float64]:
+        """Similarity of each value to the requested one, shape (n,)."""
+        similarities, otherwise = self._listed(requested)
+        table = np.full(len(self._code_of) + 1, otherwise)
+        for value, similarity in {requested: self._scale.equal, **similarities}.items():
+            if (code := self._code_of.get(value)) is not None:
+                table[code] = similarity
+        return np.asarray(table[self._codes.used])

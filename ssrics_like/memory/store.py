@@ -19,6 +19,7 @@ import networkx as nx
 
 from ssrics_like.errors import MemoryFileError, choices
 from ssrics_like.memory.files import (
+    LARGEST,
     check_header,
     damaged,
     is_finite_number,
@@ -37,6 +38,7 @@ ARC_NUMBERS = tuple(f.name for f in fields(Arc) if f.name not in ("from_id", "to
 LANDMARK_NUMBERS = tuple(f.name for f in fields(Landmark) if f.name not in ("id", "labels"))
 COUNTS = {"visits": 1, "missed": 0, "missed_since": 0, "traversals": 1, "closed": 0}
 """Fields that are whole numbers, and the least that each can be."""
+_NO_LABELS = NOT_LABELS.union(LAYOUT_LABELS)
 ARC_OPTIONAL, LANDMARK_OPTIONAL = (
     frozenset(f.name for f in fields(kind) if f.default is not MISSING) for kind in (Arc, Landmark)
 )
@@ -184,7 +186,7 @@ def _landmark(path: Path, name: Any, data: Mapping[str, Any]) -> Landmark:
         damaged(path, f"a landmark is called {name!r}, expected text")
     where = f"landmark '{name}'"
     numbers = _numbers(path, where, data, LANDMARK_NUMBERS, LANDMARK_OPTIONAL)
-    labels = {key: data[key] for key in data if key not in NOT_LABELS.union(LAYOUT_LABELS)}
+    labels = {key: value for key, value in data.items() if key not in _NO_LABELS}
     for key, value in labels.items():
         if not isinstance(value, str | bool) and not is_finite_number(value):
             damaged(path, f"landmark '{name}': {key} is {value!r}, expected text or a number")
@@ -207,6 +209,9 @@ def _numbers(
     numbers: dict[str, Any] = {}
     for name in names:
         value: Any = data.get(name)
+        if type(value) is float and name not in COUNTS and abs(value) <= LARGEST:
+            numbers[name] = value  # nearly all are: a large memory is read sooner
+            continue
         if value is None and name in optional and name not in data:
             continue
         if not is_finite_number(value):

@@ -207,8 +207,6 @@ class TopologicalMemory:
     ) -> Landmark:
         """Count one more visit; labels given replace those of the same name.
 
-        Opportunities missed since the visit before lie before the last one now.
-
         Raises
         ------
         KeyError
@@ -216,17 +214,33 @@ class TopologicalMemory:
         ValueError
             As for :meth:`add_landmark`.
         """
+        labelled = {**self[id].labels, **checked_labels(labels)}
+        seen = self.confirm(id, t_s)
+        visited = replace(seen, visits=seen.visits + 1, labels=labelled)
+        self._graph.nodes[id]["landmark"] = visited
+        return visited
+
+    def confirm(self, id: str, t_s: float) -> Landmark:  # noqa: A002  as in add_landmark
+        """Note that a landmark is still there, though the robot came from nowhere else.
+
+        Opportunities missed before lie before the last sight of it now.
+
+        Raises
+        ------
+        KeyError
+            If there is no such landmark.
+        ValueError
+            If the time is not finite.
+        """
         known = self[id]
-        visited = replace(
+        seen = replace(
             known,
-            visits=known.visits + 1,
             last_visit_s=finite("t_s", t_s),
-            labels={**known.labels, **checked_labels(labels)},
             missed=known.missed + known.missed_since,
             missed_since=0,
         )
-        self._graph.nodes[id]["landmark"] = visited
-        return visited
+        self._graph.nodes[id]["landmark"] = seen
+        return seen
 
     def miss(self, id: str) -> Landmark:  # noqa: A002  as in add_landmark
         """Count one opportunity at which a landmark was expected and not marked.

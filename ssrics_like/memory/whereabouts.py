@@ -8,7 +8,7 @@ hypotheses, each a landmark and how the robot has come from there, until one is 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 from ssrics_like.memory.expectation import (
@@ -16,6 +16,7 @@ from ssrics_like.memory.expectation import (
     FAR,
     PROVEN,
     Case,
+    Expected,
     Here,
     Hypothesis,
     Uncertainty,
@@ -32,9 +33,9 @@ BELOW = 9.0
 ELSEWHERE = 0.05
 """Weight of the hypothesis that the robot may be anywhere, beside that of a landmark that begins a
 new part of the graph."""
-SURE = (0.95, 0.9, 0.85)
-"""So sure a robot that was lost must be of the first landmark that fits, the second, and each later
-one until its whereabouts are proven: buildings have rows of doorways that look alike."""
+SURE = 0.95
+"""So sure a robot that was lost must be of a landmark until its whereabouts are proven: buildings
+have rows of doorways that look alike."""
 ENOUGH = 3
 """It relies on where it believes to be when so many have fitted."""
 SAME_PLACE_M = 1.0
@@ -42,6 +43,7 @@ SAME_PLACE_M = 1.0
 GIVEN_UP = 6
 """After so many landmarks in a row that it was unsure of, a robot that is lost takes the next one
 that it does not know for new: it is somewhere that it has never been."""
+_NO_LANDMARKS: Collection[str] = ()
 
 
 class Whereabouts:
@@ -64,7 +66,8 @@ class Whereabouts:
         self.hypotheses: tuple[Hypothesis, ...] = ()
         self._sd = uncertainty
         self._links = links
-        self._cases: list[Case] = []
+        self._here, self._landmarks = ANYWHERE.at, _NO_LANDMARKS
+        self._near: list[Case] = []
         self._marked: Pose | None = None
         self._again = False
         self._doubts = 0
@@ -111,49 +114,43 @@ class Whereabouts:
             return known or self._doubts >= GIVEN_UP
         case = self._likeliest(landmark)
         met = likeliest.met if case is None else self._met(case)
-        return met >= PROVEN or (met > 0 and share >= SURE[min(met, len(SURE)) - 1])
+        return met >= PROVEN or (met > 0 and share >= SURE)
 
-    def expect(self, here: Here, landmarks: Iterable[str]) -> dict[str, float]:
+    def expect(self, here: Here, landmarks: Collection[str]) -> Expected:
         """Tell how improbable each landmark is here.
 
         Parameters
         ----------
         here : Here
             What was perceived.
-        landmarks : iterable of str
-            All there are; gone through only if the robot may be anywhere.
-
-        Returns
-        -------
-        dict
-            By landmark: ``-ln(p / p0)``, p being the probability density of perceiving it here and
-            p0 that of perceiving it where it is, if all were known for certain; none is above 20,
-            and a landmark that is not in it counts 20.
+        landmarks : collection of str
+            All there are.
         """
+        self._here, self._landmarks = here, landmarks
         self._again = (
             self._marked is not None and self._marked.distance_m(here.place) < SAME_PLACE_M
         )
         if self._again:
             self._look_anew()
-        lost = any(hypothesis.landmark is None for hypothesis in self.hypotheses)
-        names = list(landmarks) if lost else []
-        around: dict[str, dict[str, Link]] = {}
+        around: dict[str, Mapping[str, Link]] = {}
         total = sum(math.exp(hypothesis.weight) for hypothesis in self.hypotheses)
         odds: dict[str, float] = {}
-        self._cases = []
+        anywhere = 0.0
+        self._near = []
         for hypothesis in self.hypotheses:
             landmark = hypothesis.landmark
             if landmark is None:
-                cases = list(cases_anywhere(hypothesis, here, names, self._sd))
-            else:
-                if landmark not in around:
-                    around[landmark] = self._links.seen_from(landmark)
-                cases = list(cases_near(hypothesis, around[landmark], here, self._sd))
-            self._cases += cases
+                anywhere += math.exp(hypothesis.weight) / total / max(len(landmarks), 1)
+                continue
+            if landmark not in around:
+                around[landmark] = self._links.seen_from(landmark)
+            cases = list(cases_near(hypothesis, around[landmark], here, self._sd))
+            self._near += cases
             for case in cases:
                 p = math.exp(hypothesis.weight - case.nats) / total
                 odds[case.landmark] = odds.get(case.landmark, 0.0) + p
-        return {name: min(-math.log(p), FAR) for name, p in odds.items() if p > 0.0}
+        nats = {name: _nats(p + anywhere) for name, p in odds.items()}
+        return Expected(nats, _nats(anywhere))
 
     def recognise(
         self, landmark: str, here: Here, evidence: Mapping[str, float], new: float
@@ -214,7 +211,7 @@ class Whereabouts:
         Parameters
         ----------
         here : Here
-            As for `expect`, which must have been called.
+            As for `expect`, which must have been called with it.
         evidence : mapping of str to float
             By landmark: logarithm of how probable it is by everything but its place.
         new : float
@@ -222,13 +219,20 @@ class Whereabouts:
         """
         self._doubts += 1
         self._marked = here.place
+        cases = [case for case in self._near if case.landmark in evidence]
+        if any(hypothesis.landmark is None for hypothesis in self.hypotheses):
+            lookalikes = {name: nats for name, nats in evidence.items() if name in self._landmarks}
+            best = max(lookalikes.values(), default=0.0)
+            for name, nats in lookalikes.items():
+                if nats > best - BELOW:  # the others would be given up anyway
+                    cases += self._from_anywhere(name)
         grown = [
             Hypothesis(
                 case.landmark, case.fix, here,
                 case.before.weight - case.nats + evidence[case.landmark],
                 self._met(case), evidence[case.landmark],
             )
-            for case in self._cases if case.landmark in evidence
+            for case in cases
         ]  # fmt: skip
         grown += [replace(h, weight=h.weight + new, seen=0.0) for h in self.hypotheses]
         grown.sort(key=lambda hypothesis: -hypothesis.weight)
@@ -236,6 +240,15 @@ class Whereabouts:
         self.hypotheses = tuple(
             replace(h, weight=h.weight - best) for h in grown[:MOST] if h.weight > best - BELOW
         )
+
+    def _from_anywhere(self, landmark: str) -> list[Case]:
+        """Return the cases that this is a landmark, and the robot was anywhere before."""
+        of = len(self._landmarks)
+        return [
+            case
+            for hypothesis in self.hypotheses if hypothesis.landmark is None
+            for case in cases_anywhere(hypothesis, self._here, landmark, of, self._sd)
+        ]  # fmt: skip
 
     def _look_anew(self) -> None:
         """Take back what the place looked like: it is seen again, and counts only once."""
@@ -251,5 +264,11 @@ class Whereabouts:
 
     def _likeliest(self, landmark: str) -> Case | None:
         """Return the likeliest way in which this can be a landmark."""
-        cases = (case for case in self._cases if case.landmark == landmark)
+        cases = [case for case in self._near if case.landmark == landmark]
+        if landmark in self._landmarks:
+            cases += self._from_anywhere(landmark)
         return max(cases, key=lambda case: case.before.weight - case.nats, default=None)
+
+
+def _nats(p: float) -> float:
+    return min(-math.log(p), FAR) if p > 0.0 else FAR

@@ -193,6 +193,11 @@ class PerceptionBuffer:
         return self._here
 
     @property
+    def travelled_m(self) -> float:
+        """Length of the path by odometry, metres."""
+        return self._travelled_m
+
+    @property
     def carried(self) -> int:
         """How often the robot has found itself suddenly elsewhere."""
         return 0 if self._egomotion is None else self._egomotion.carried
