@@ -16,7 +16,7 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
     "memory": {"errors", "compiling", "poses"},
     "productions": {"errors", "library", "settings"},
     "sources": {"errors", "perception"},
-    "modules": {"errors", "decision", *MIND},
+    "modules": {"errors", "decision", "poses", *MIND},
     "cues": {"errors", "atomic", "perception"},
     "wayfinding": {"errors", "modules", "poses", *MIND},
     "model": {"errors", "cues", "library", "decision", "modules", "wayfinding", *MIND},

@@ -129,3 +129,19 @@ def test_forgotten_for_good_it_is_declared_anew_where_what_lasted_is_known_again
 
 def test_where_it_was_and_as_it_looked_it_is_known_for_years():
     assert mind().meet("L2", 1e8) == ("recognised", "L2")  # three years
+
+
+def test_who_goes_through_a_landmark_and_does_not_see_it_trusts_it_less(monkeypatch):
+    monkeypatch.setitem(PLACES, "L2", (6.0, 0.0))  # near enough to be known well
+    mind = Mind()
+    for i, name in enumerate(["L1", "L2"] * 3 + ["L1"]):
+        assert mind.meet(name, 20.0 * i)[1] == name
+    before = mind.modules.appraisal.permanence("L2", 150.0)
+    for step in range(120):  # from L1 along the way, and past where L2 was
+        mind.modules.go(Pose(0.1 * step, 0.0, 0.0), 140.0 + 0.1 * step)
+    node = mind.modules.topological["L2"]
+    assert (node.missed, node.missed_since) == (0, 1)
+    assert mind.modules.appraisal.permanence("L2", 150.0) < before / 2
+    mind.meet("L2", 160.0)
+    node = mind.modules.topological["L2"]
+    assert (node.missed, node.missed_since) == (1, 0)
