@@ -136,12 +136,14 @@ def test_who_goes_through_a_landmark_and_does_not_see_it_trusts_it_less(monkeypa
     mind = Mind()
     for i, name in enumerate(["L1", "L2"] * 3 + ["L1"]):
         assert mind.meet(name, 20.0 * i)[1] == name
-    before = mind.modules.appraisal.permanence("L2", 150.0)
+    # Seen at 20, 60 and 100 s: it has lasted 80 s, and none of its two later chances was missed.
+    permanence = mind.modules.appraisal.permanence
+    assert permanence("L2", 150.0) == pytest.approx(140.0 / (140.0 + 50.0))
     for step in range(120):  # from L1 along the way, and past where L2 was
         mind.modules.go(Pose(0.1 * step, 0.0, 0.0), 140.0 + 0.1 * step)
     node = mind.modules.topological["L2"]
     assert (node.missed, node.missed_since) == (0, 1)
-    assert mind.modules.appraisal.permanence("L2", 150.0) < before / 2
+    assert permanence("L2", 150.0) == pytest.approx(140.0 / 4 / (140.0 / 4 + 50.0))
     mind.meet("L2", 160.0)
     node = mind.modules.topological["L2"]
     assert (node.missed, node.missed_since) == (1, 0)
