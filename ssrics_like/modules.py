@@ -120,7 +120,7 @@ class LandmarkModules:
 
     def go(self, here: Pose, travelled_m: float) -> None:
         """Note where the robot is by path integration; landmarks passed unseen are missed."""
-        for landmark in self._passing.go(here, travelled_m, self.whereabouts.known):
+        for landmark in self._passing.go(here, travelled_m, self.whereabouts.proven):
             self.topological.miss(landmark)
 
     def admit(self, reflex: Reflex) -> BufferChunk:

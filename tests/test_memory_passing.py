@@ -63,6 +63,24 @@ def test_a_mark_may_come_some_way_after_the_place(corridor):
     assert drive(passing, whereabouts, [past[-1], past[-1] - 1.0], started_m=20.0) == []
 
 
+def test_a_mark_may_come_before_the_middle(corridor):
+    whereabouts, passing = corridor
+    drive(passing, whereabouts, np.arange(10.0, 8.1, -0.1).tolist())
+    passing.marked(Pose(8.1, 0.0, 0.0))
+    on = np.arange(8.1, 4.5, -0.1).tolist()
+    assert drive(passing, whereabouts, on, started_m=13.9) == []
+
+
+def test_a_place_where_the_landmark_is_no_longer_believed_to_be_is_not_missed(corridor):
+    whereabouts, passing = corridor
+    drive(passing, whereabouts, np.arange(10.0, 7.0, -0.1).tolist())
+    aside = Here(Pose(7.0, 1.5, 0.0), True, 18.0, 0.0)
+    whereabouts.find("L9", aside)  # something is learned, and all is reckoned anew
+    whereabouts.expect(Here(Pose(6.0, 1.0, 0.0), True, 19.0, 0.0), ["L1", "L2", "L3", "L4", "L9"])
+    whereabouts.recognise("L2", Here(Pose(6.0, 1.0, 0.0), True, 19.0, 0.0), {}, 0.0)
+    assert passing.go(Pose(5.0, 1.0, 0.0), 25.0, whereabouts.known) == []
+
+
 def test_a_robot_that_is_lost_misses_nothing(corridor):
     whereabouts, passing = corridor
     passing.go(Pose(8.0, 0.0, 0.0), 16.0, whereabouts.known)

@@ -209,3 +209,10 @@ def test_only_what_is_joined_can_be_shut():
     assert not memory.joins("L1", "L3")
     with pytest.raises(KeyError, match="no arc between 'L1' and 'L3'"):
         memory.close("L1", "L3")
+
+
+def test_what_is_told_late_does_not_make_a_landmark_older():
+    memory = TopologicalMemory()
+    memory.add_landmark("L1", 0.0, 0.0, 0.0, 0.0)
+    memory.visit("L1", 50.0)
+    assert memory.visit("L1", 40.0).last_visit_s == 50.0

@@ -209,3 +209,9 @@ def test_before_the_first_landmark_nothing_is_expected():
     whereabouts = Whereabouts(CERTAIN, Links())
     assert whereabouts.expect(here(0.0, 0.0), []) == Expected()
     assert whereabouts.find("L1", here(0.0, 0.0)) is None
+
+
+def test_before_the_first_landmark_there_is_nothing_to_be_in_doubt_about():
+    whereabouts = Whereabouts(CERTAIN, Links())
+    whereabouts.doubt(here(0.0, 0.0), {}, -10.0)
+    assert whereabouts.hypotheses == ()

@@ -29,11 +29,12 @@ class _Passage(NamedTuple):
     from_m: float
     to_m: float
     at_m: float
+    marked: bool = False
 
     @property
     def through(self) -> bool:
-        """Whether it got to the other side; who turns back has missed nothing."""
-        return self.from_m * self.to_m < 0.0
+        """Whether it got to the other side unseeing; who turns back has missed nothing."""
+        return not self.marked and self.from_m * self.to_m < 0.0
 
 
 class Passing:
@@ -62,7 +63,7 @@ class Passing:
         travelled_m : float
             Length of the path.
         known : Hypothesis or None
-            At which landmark it has been last; None while it is lost.
+            At which landmark it has been last; None while that is not proven.
 
         Returns
         -------
@@ -87,11 +88,9 @@ class Passing:
 
     def marked(self, place: Pose) -> None:
         """Note that a place was marked: whatever is expected there has not been missed."""
-        self._passages = {
-            name: passage
-            for name, passage in self._passages.items()
-            if passage.place.distance_m(place) > MARKED_M
-        }
+        for name, passage in self._passages.items():
+            if passage.place.distance_m(place) < MARKED_M:
+                self._passages[name] = passage._replace(marked=True)
 
     def _expect(self, known: Hypothesis, landmark: str) -> None:
         """Find where landmarks lie by what the robot knows now."""
@@ -100,4 +99,9 @@ class Passing:
         }
         sure = {name: link.pose for name, link in there.items() if link.variance_m2 < SURE_M**2}
         self._places = list(sure.items())
+        self._passages = {  # what the robot does not believe any more, it has not missed
+            name: passage
+            for name, passage in self._passages.items()
+            if name in sure and passage.place.distance_m(sure[name]) < THROUGH_M
+        }
         self._places_m = np.array([(p.x_m, p.y_m) for p in sure.values()]).reshape(-1, 2)

@@ -235,7 +235,8 @@ class TopologicalMemory:
         known = self[id]
         seen = replace(
             known,
-            last_visit_s=finite("t_s", t_s),
+            # Rules may decide about two reflexes in either order.
+            last_visit_s=max(known.last_visit_s, finite("t_s", t_s)),
             missed=known.missed + known.missed_since,
             missed_since=0,
         )
@@ -357,8 +358,10 @@ class TopologicalMemory:
                 closed=arc.closed,
             )
             memory._gone += memory._gone_between(*ends) - gone
-            if arc.position_sd_m > 0.0 and memory.links.between(*ends) is None:
+            if ends[0] == ends[1] or arc.position_sd_m <= 0.0:
+                continue
+            if memory.links.between(*ends) is None:
                 pose = Pose(arc.x_m, arc.y_m, arc.theta_rad)
                 variances = arc.position_sd_m**2, arc.direction_sd_rad**2
-                memory.links.relate(*ends, Link(pose, *variances))
+                memory.links.relate(*ends, Link(pose, *variances).bounded)
         return memory

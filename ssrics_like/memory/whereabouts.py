@@ -78,6 +78,12 @@ class Whereabouts:
         likeliest = self.hypotheses[0] if self.hypotheses else ANYWHERE
         return likeliest if likeliest.landmark is not None and likeliest.met >= ENOUGH else None
 
+    @property
+    def proven(self) -> Hypothesis | None:
+        """The same, if enough landmarks have fitted to learn something about the graph."""
+        known = self.known
+        return known if known is not None and known.met >= PROVEN else None
+
     def place_of(self, landmark: str) -> Link | None:
         """Tell where a landmark most probably is, in the frame of path integration.
 
@@ -219,6 +225,8 @@ class Whereabouts:
         """
         self._doubts += 1
         self._marked = here.place
+        if not self.hypotheses:  # before the first landmark there is nothing to be in doubt about
+            return
         cases = [case for case in self._near if case.landmark in evidence]
         if any(hypothesis.landmark is None for hypothesis in self.hypotheses):
             lookalikes = {name: nats for name, nats in evidence.items() if name in self._landmarks}
