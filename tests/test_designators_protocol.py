@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 from designator_drives import ROOM, observation, straight, travelled
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 import ssrics_like.designators as package
@@ -230,6 +230,7 @@ def any_drive(seed, scans, odd):
     max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(st.integers(0, 2**32 - 1), st.integers(0, 60), st.sampled_from([0.0, 0.1, 0.5, 1.0]))
+@example(306402235, 21, 1.0)  # an infinite heading after an infinite one
 def test_any_drive_gives_marks_in_order_and_the_same_ones_again(made, name, seed, scans, odd):
     drive = any_drive(seed, scans, odd)
     marks = designate(made(name), drive)

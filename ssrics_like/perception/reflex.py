@@ -219,7 +219,8 @@ class PerceptionBuffer:
             before = self._newest.pose
             step_m = before.distance_m(observation.pose)
             self._travelled_m += step_m if math.isfinite(step_m) else 0.0
-            turn_rad = observation.pose.theta_rad - before.theta_rad
+            # As plain floats: numpy's warn of infinity less infinity.
+            turn_rad = float(observation.pose.theta_rad) - float(before.theta_rad)
             if math.isfinite(turn_rad):
                 self._turned_rad += abs(math.remainder(turn_rad, math.tau))
         self._newest = observation
