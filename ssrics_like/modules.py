@@ -224,7 +224,9 @@ class LandmarkModules:
         if request.outcome == "declared":
             name = self.topological.next_id()
             made = self._declare(name, reflex)
-            self._arrive(name, reflex, self.whereabouts.find(name, _here(reflex)), new=True)
+            self._expect(reflex)
+            before = self.whereabouts.find(name, _here(reflex), *self._evidence())
+            self._arrive(name, reflex, before, new=True)
         elif request.outcome == "recognised":
             self._expect(reflex)
             before = self.whereabouts.recognise(name, _here(reflex), *self._evidence())
@@ -286,20 +288,26 @@ class LandmarkModules:
             self._expected = self.whereabouts.expect(_here(reflex), self.topological)
 
     def _evidence(self) -> tuple[dict[str, float], float]:
-        """Return what else but its place speaks for each landmark, and for none of them."""
+        """Return what else but its place speaks for each landmark, and for none of them.
+
+        That it is familiar does not: how often it was met says nothing of where the robot has come
+        since, and would count again at every landmark.
+        """
         if self._recalled is None:
             return {}, 0.0
         found = self._recalled[0].candidates
         evidence = {
-            str(name): float(total - noise) + self._expected[str(name)]
-            for name, total, noise in zip(found.names, found.total, found.noise, strict=True)
+            str(name): float(context) + self._expected[str(name)]
+            for name, context in zip(found.names, found.by_context, strict=True)
         }
-        return evidence, found.threshold
+        return evidence, found.threshold_by_context
 
     def _confidence(self, recalled: Retrieval) -> float:
         """Return how probable it is that what was recalled, or that nothing was, is right."""
         share = recalled.share
         name = None if recalled.chunk is None else recalled.chunk.name
+        if self.whereabouts.in_doubt:  # what was seen lately is not therefore nearer
+            share = min(share, recalled.share_by_context)
         return share if self.whereabouts.settled(name, share) else min(share, UNSETTLED)
 
     def _likeness_of_places(self, asked: Value) -> Listed:

@@ -260,6 +260,25 @@ def test_equal_activations_are_decided_by_name_ignoring_case():
     assert memory.retrieve(request(), 2.0).chunk.name == "La"  # a letter comes before _
 
 
+def test_by_context_all_are_as_familiar_as_each_other():
+    memory = memory_with(
+        ("a", "mark", {"sector": "left"}),
+        ("b", "mark", {"sector": "left", "size": 1.0}),
+        retrieval_threshold=-5.0,
+        mismatch_penalty=1.0,
+    )
+    for t_s in range(1, 9):
+        memory.strengthen("a", float(t_s))
+    found = memory.retrieve(request(sector="left"), 10.0)
+    assert found.chunk.name == "a"
+    assert found.share > 0.8
+    a, b = (math.exp(row.base_level) for row in found.candidates.rows())
+    none = math.exp(-5.0) / ((a + b) / 2)
+    assert found.share_by_context == pytest.approx(1 / (2 + none))
+    nothing = memory.retrieve(request("unheard-of"), 10.0)
+    assert nothing.share_by_context == nothing.share == 1.0
+
+
 def test_a_retrieval_does_not_strengthen():
     memory = memory_with(LEFT)
     memory.retrieve(request(), 1.0)

@@ -1,14 +1,16 @@
 """Whereabouts: what is expected where, one hypothesis or several."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from ssrics_like import load_memory
 from ssrics_like.memory.base_level import base_level
-from ssrics_like.memory.expectation import ASTRAY, ASTRAY_M, FAR, Expected, Here, Uncertainty
-from ssrics_like.memory.links import Links
+from ssrics_like.memory.expectation import ASTRAY, ASTRAY_M, FAR, Expected, Uncertainty
+from ssrics_like.memory.hypotheses import BELOW, Here, Hypothesis, likely
+from ssrics_like.memory.links import Link, Links
 from ssrics_like.memory.whereabouts import SURE, Whereabouts
 from ssrics_like.poses import Pose
 
@@ -215,3 +217,56 @@ def test_before_the_first_landmark_there_is_nothing_to_be_in_doubt_about():
     whereabouts = Whereabouts(CERTAIN, Links())
     whereabouts.doubt(here(0.0, 0.0), {}, -10.0)
     assert whereabouts.hypotheses == ()
+
+
+def anywhere_in(hypotheses):
+    return [h.weight for h in hypotheses if h.landmark is None]
+
+
+def test_a_robot_that_turns_in_a_place_unknown_to_it_may_still_be_anywhere():
+    whereabouts, names = corridor()
+    whereabouts.lose()
+    like_none = dict.fromkeys(names, -9.0)
+    seen = []
+    for travelled_m in (0.0, 3.0, 6.0, 9.0):
+        at = here(50.0, 20.0, 0.0, travelled_m)
+        whereabouts.expect(at, names)
+        whereabouts.doubt(at, like_none, -13.0)
+        seen.append(anywhere_in(whereabouts.hypotheses))
+    assert seen[0]
+    assert seen == [seen[0]] * 4
+
+
+def test_a_robot_that_took_a_place_for_its_lookalike_finds_out_where_the_likeness_ends():
+    """Nine doors and, far from them, ten: the robot is at these, which look a bit less alike."""
+    whereabouts, _ = corridor(doors=9)
+    for i in range(10):
+        whereabouts.find(f"M{i + 1}", here(1000.0 + 4.0 * i, 0.0, 0.0, 1000.0 + 4.0 * i))
+    names = [*(f"L{i + 1}" for i in range(9)), *(f"M{i + 1}" for i in range(10))]
+    whereabouts.lose()
+    for i in range(10):
+        at = here(4.0 * i, 50.0, 0.0, 4.0 * i)
+        evidence = dict.fromkeys(names, -6.0) | {f"L{i + 1}": -0.7, f"M{i + 1}": -1.0}
+        nats = whereabouts.expect(at, names)
+        likeliest = min(names, key=lambda name: nats[name] - evidence[name])
+        if i < 9:
+            assert likeliest == f"L{i + 1}"
+            whereabouts.recognise(likeliest, at, evidence, -10.0)
+    assert likeliest == "M10"
+    assert nats["M10"] - evidence["M10"] < 5.0  # a new place would cost 10
+    whereabouts.recognise("M10", at, evidence, -10.0)
+    assert whereabouts.known.landmark == "M10"
+
+
+def test_hypotheses_that_agree_are_one():
+    at = here(3.0, 0.0)
+    one = Hypothesis("L1", Link(Pose(3.0, 0.0, 0.0), 0.01, 0.01), at, -1.0, 3)
+    near = replace(one, fix=one.fix._replace(pose=Pose(3.2, 0.1, 0.1)), weight=-2.0, met=2)
+    turned = replace(one, fix=one.fix._replace(pose=Pose(3.0, 0.0, math.pi)), weight=-3.0)
+    elsewhere = replace(one, landmark="L2", weight=-4.0)
+    hopeless = replace(one, landmark="L3", weight=-2.0 - BELOW)
+    kept = likely([hopeless, turned, near, elsewhere, one])
+    both = math.log(math.exp(-1.0) + math.exp(-2.0))
+    assert [(h.landmark, h.met) for h in kept] == [("L1", 3), ("L1", 3), ("L2", 3)]
+    assert [h.weight for h in kept] == pytest.approx([0.0, -3.0 - both, -4.0 - both])
+    assert kept[0].fix == one.fix

@@ -7,7 +7,8 @@ from ssrics_like.memory.base_level import base_level
 from ssrics_like.memory.candidates import CandidateRow, Candidates, Retrieval
 from ssrics_like.memory.chunks import Chunk, Request, Value, View
 from ssrics_like.memory.declarative import DeclarativeMemory
-from ssrics_like.memory.expectation import Expected, Here, Hypothesis, Uncertainty
+from ssrics_like.memory.expectation import Expected, Uncertainty
+from ssrics_like.memory.hypotheses import Here, Hypothesis
 from ssrics_like.memory.landmark import Arc, Landmark
 from ssrics_like.memory.parameters import MemoryParameters
 from ssrics_like.memory.routes import Route, shortest_routes

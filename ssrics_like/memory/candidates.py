@@ -69,6 +69,19 @@ class Candidates:
         return map(self.row, range(len(self)))
 
     @property
+    def by_context(self) -> NDArray[np.float64]:
+        """What spreading and matching say for each candidate, its base level and noise aside."""
+        return self.spreading + self.partial_match
+
+    @property
+    def threshold_by_context(self) -> float:
+        """The threshold for `by_context`: as far above a candidate of mean odds as before."""
+        if not len(self):
+            return self.threshold
+        mean = float(np.logaddexp.reduce(self.base_level)) - math.log(len(self))
+        return self.threshold - mean
+
+    @property
     def best(self) -> CandidateRow | None:
         """The most active candidate, whether or not it reaches the threshold."""
         return None if self.winner is None else self.row(self.winner)
@@ -115,9 +128,18 @@ class Retrieval:
         noise aside.
         """
         found = self.candidates
-        if not math.isfinite(found.threshold):  # activation is not reckoned
+        return self._share(found.total - found.noise, found.threshold)
+
+    @property
+    def share_by_context(self) -> float:
+        """The same, with all as familiar as each other."""
+        found = self.candidates
+        return self._share(found.by_context, found.threshold_by_context)
+
+    def _share(self, activations: NDArray[np.float64], threshold: float) -> float:
+        if not math.isfinite(threshold):  # activation is not reckoned
             return 1.0
-        odds = np.append(found.total - found.noise, found.threshold)
+        odds = np.append(activations, threshold)
         share = np.exp(odds - np.logaddexp.reduce(odds))
-        chosen = -1 if self.chunk is None or found.winner is None else found.winner
-        return float(share[chosen])
+        chosen = -1 if self.chunk is None else self.candidates.winner
+        return float(share[-1 if chosen is None else chosen])

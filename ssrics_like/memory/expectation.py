@@ -1,6 +1,6 @@
 """What a robot that believes to have been at a landmark expects to perceive where.
 
-A *hypothesis* is such a belief; a *case* is one landmark that something may be, if it is true.
+A *case* is one landmark that something may be, if a hypothesis about where the robot was is true.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ssrics_like.memory.hypotheses import Here, Hypothesis
 from ssrics_like.memory.links import Link
 from ssrics_like.poses import Pose
 
@@ -21,30 +22,8 @@ TURN_CAP = 3.0
 """A direction, however wrong, counts no more than this: now and then one is mismeasured."""
 ASTRAY, ASTRAY_M = 0.05, 0.4
 """So often a landmark is perceived astray, and how far then (standard deviation)."""
-PROVEN = 8
-"""Until so many landmarks have fitted, other hypotheses are gone on with, in case that it was a
-mistake."""
 UNDIRECTED_RAD2 = 10.0
 """Variance of a direction of which nothing is known."""
-
-
-class Here(NamedTuple):
-    """Where something was perceived.
-
-    Attributes
-    ----------
-    place : Pose
-        By path integration.
-    directed : bool
-        Whether its direction is that of the place, as of a doorway, give or take half a turn.
-    travelled_m, turned_rad : float
-        Length of the path, and sum of all turns, by then.
-    """
-
-    place: Pose
-    directed: bool
-    travelled_m: float
-    turned_rad: float
 
 
 @dataclass(frozen=True)
@@ -82,39 +61,6 @@ class Uncertainty:
             self.drift**2 * way_m + (self.bias * way_m) ** 2 + 0.5 * variance_rad2 * away_m**2
         )
         return Link(Pose(0.0, 0.0, 0.0), variance_m2, variance_rad2)
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """The robot was at a landmark, and came from there as path integration has it.
-
-    Attributes
-    ----------
-    landmark : str or None
-        None: it may be anywhere.
-    fix : Link
-        The landmark's frame in that of path integration.
-    at : Here
-        Where it was perceived then.
-    weight : float
-        Logarithm of the probability.
-    met : int
-        How many landmarks it has explained since the robot was lost; `PROVEN` at most.
-    seen : float
-        What of the weight is due to how the last place marked looked, and how familiar it is.
-    """
-
-    landmark: str | None
-    fix: Link
-    at: Here
-    weight: float
-    met: int = PROVEN
-    seen: float = 0.0
-
-
-_NOWHERE = Pose(0.0, 0.0, 0.0)
-ANYWHERE = Hypothesis(None, Link(_NOWHERE, 0.0, 0.0), Here(_NOWHERE, False, 0.0, 0.0), 0.0, 0)
-"""The robot may be at any landmark, or at none."""
 
 
 class Case(NamedTuple):

@@ -9,7 +9,7 @@ import numpy as np
 from ssrics_like.poses import Pose
 
 if TYPE_CHECKING:
-    from ssrics_like.memory.expectation import Hypothesis
+    from ssrics_like.memory.hypotheses import Hypothesis
     from ssrics_like.memory.links import Links
 
 THROUGH_M = 0.3

@@ -8,42 +8,39 @@ hypotheses, each a landmark and how the robot has come from there, until one is 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
 from ssrics_like.memory.expectation import (
-    ANYWHERE,
     FAR,
-    PROVEN,
     Case,
     Expected,
-    Here,
-    Hypothesis,
     Uncertainty,
     cases_anywhere,
     cases_near,
 )
+from ssrics_like.memory.hypotheses import ANYWHERE, BELOW, PROVEN, Here, Hypothesis, likely
 from ssrics_like.memory.links import Link, Links
 from ssrics_like.poses import Pose
 
-MOST = 300
-"""Hypotheses that are gone on with."""
-BELOW = 9.0
-"""A hypothesis that is so much less probable than the best (logarithm) is given up."""
 ELSEWHERE = 0.05
 """Weight of the hypothesis that the robot may be anywhere, beside that of a landmark that begins a
 new part of the graph."""
-SURE = 0.95
+SURE = 0.85
 """So sure a robot that was lost must be of a landmark until its whereabouts are proven: buildings
 have rows of doorways that look alike."""
+PROOF = 6.0
+"""Nothing else fits if it is so much less probable (logarithm)."""
 ENOUGH = 3
-"""It relies on where it believes to be when so many have fitted."""
+"""The robot relies on where it believes to be when so many landmarks have fitted."""
 SAME_PLACE_M = 1.0
 """What is perceived so near to the place marked last is the same place."""
 GIVEN_UP = 6
 """After so many landmarks in a row that it was unsure of, a robot that is lost takes the next one
 that it does not know for new: it is somewhere that it has never been."""
+_Several = tuple[Hypothesis, ...]
 _NO_LANDMARKS: Collection[str] = ()
+_NO_EVIDENCE: Mapping[str, float] = {}
 
 
 class Whereabouts:
@@ -63,14 +60,17 @@ class Whereabouts:
     """
 
     def __init__(self, uncertainty: Uncertainty, links: Links) -> None:
-        self.hypotheses: tuple[Hypothesis, ...] = ()
+        self.hypotheses: _Several = ()
         self._sd = uncertainty
         self._links = links
         self._here, self._landmarks = ANYWHERE.at, _NO_LANDMARKS
         self._near: list[Case] = []
-        self._marked: Pose | None = None
-        self._again = False
         self._doubts = 0
+        self._marked: Pose | None = None
+        # What is perceived is compared with `_from`. In the place marked last those are the
+        # hypotheses from before that mark: it counts once, however often the robot turns in it.
+        self._from: _Several = ()
+        self._before_mark: _Several = ()
 
     @property
     def known(self) -> Hypothesis | None:
@@ -82,7 +82,14 @@ class Whereabouts:
     def proven(self) -> Hypothesis | None:
         """The same, if enough landmarks have fitted to learn something about the graph."""
         known = self.known
-        return known if known is not None and known.met >= PROVEN else None
+        if known is None or known.met < PROVEN:
+            return None
+        return known if _outweighs(known, self.hypotheses) else None
+
+    @property
+    def in_doubt(self) -> bool:
+        """Whether there was more than one hypothesis before what is perceived now."""
+        return len(self._from) > 1
 
     def place_of(self, landmark: str) -> Link | None:
         """Tell where a landmark most probably is, in the frame of path integration.
@@ -100,7 +107,7 @@ class Whereabouts:
 
     def lose(self) -> None:
         """Give up all hypotheses: the robot may be anywhere."""
-        self.hypotheses = (ANYWHERE,)
+        self._from = self.hypotheses = (ANYWHERE,)
         self._marked = None
         self._doubts = 0
 
@@ -114,7 +121,7 @@ class Whereabouts:
         share : float
             How probable that is.
         """
-        likeliest = self.hypotheses[0] if self.hypotheses else ANYWHERE
+        likeliest = self._from[0] if self._from else ANYWHERE
         if landmark is None:
             known = likeliest.landmark is None or likeliest.met >= ENOUGH
             return known or self._doubts >= GIVEN_UP
@@ -133,17 +140,14 @@ class Whereabouts:
             All there are.
         """
         self._here, self._landmarks = here, landmarks
-        self._again = (
-            self._marked is not None and self._marked.distance_m(here.place) < SAME_PLACE_M
-        )
-        if self._again:
-            self._look_anew()
+        again = self._marked is not None and self._marked.distance_m(here.place) < SAME_PLACE_M
+        self._from = self._before_mark if again else self.hypotheses
         around: dict[str, Mapping[str, Link]] = {}
-        total = sum(math.exp(hypothesis.weight) for hypothesis in self.hypotheses)
+        total = sum(math.exp(hypothesis.weight) for hypothesis in self._from)
         odds: dict[str, float] = {}
         anywhere = 0.0
         self._near = []
-        for hypothesis in self.hypotheses:
+        for hypothesis in self._from:
             landmark = hypothesis.landmark
             if landmark is None:
                 anywhere += math.exp(hypothesis.weight) / total / max(len(landmarks), 1)
@@ -173,33 +177,41 @@ class Whereabouts:
         here, evidence, new : as for `doubt`
         """
         case = self._likeliest(landmark)
-        if case is not None and self._met(case) < PROVEN:
+        if case is not None and not self._proven_by(case):
             self.doubt(here, evidence, new)
             self._doubts = 0
             return None
-        self._doubts = 0
-        self._marked = here.place
         if case is None:  # recognised without being expected
-            self.hypotheses = (Hypothesis(landmark, Link(here.place, 0.0, 0.0), here, 0.0),)
+            self._be_at(here, Hypothesis(landmark, Link(here.place, 0.0, 0.0), here, 0.0))
             return None
         before = case.before
         if before.landmark is not None and before.landmark != landmark and case.link is not None:
             self._links.relate(before.landmark, landmark, case.link)
-        self.hypotheses = (Hypothesis(landmark, case.fix, here, 0.0),)
+        self._be_at(here, Hypothesis(landmark, case.fix, here, 0.0))
         return before if before.landmark is not None else None
 
-    def find(self, landmark: str, here: Here) -> Hypothesis | None:
+    def find(
+        self,
+        landmark: str,
+        here: Here,
+        evidence: Mapping[str, float] = _NO_EVIDENCE,
+        new: float = 0.0,
+    ) -> Hypothesis | None:
         """Be at a new landmark; return where the robot came from, if that is known.
 
         The new landmark's frame is the place as it is perceived now.
+
+        Parameters
+        ----------
+        landmark : str
+            Its name.
+        here, evidence, new : as for `doubt`
         """
-        self._doubts = 0
-        self._marked = here.place
-        before = self.hypotheses[0] if self.hypotheses else None
-        new = Hypothesis(landmark, Link(here.place, 0.0, 0.0), here, 0.0)
+        before = self._from[0] if self._from else None
+        found = Hypothesis(landmark, Link(here.place, 0.0, 0.0), here, 0.0)
         if before is None or before.landmark is None or before.met < ENOUGH:
             elsewhere = replace(ANYWHERE, weight=math.log(ELSEWHERE))
-            self.hypotheses = (new,) if before is None else (new, elsewhere)
+            self._be_at(here, *((found,) if before is None else (found, elsewhere)))
             return None
         drift = self._sd.since(before, here)
         link = Link(
@@ -208,7 +220,11 @@ class Whereabouts:
             before.fix.variance_rad2 + drift.variance_rad2,
         )
         self._links.relate(before.landmark, landmark, link.bounded)
-        self.hypotheses = (new,)
+        found = replace(found, weight=before.weight, met=before.met)
+        others = self._from[1:]
+        rivals = self._grown(here, evidence, new, without=before)
+        self._be_at(here, *likely([replace(found, weight=found.weight + new), *rivals]))
+        self._before_mark = (found, *others)
         return before
 
     def doubt(self, here: Here, evidence: Mapping[str, float], new: float) -> None:
@@ -224,11 +240,26 @@ class Whereabouts:
             The same for a place that is no landmark yet.
         """
         self._doubts += 1
-        self._marked = here.place
-        if not self.hypotheses:  # before the first landmark there is nothing to be in doubt about
+        self._marked, self._before_mark = here.place, self._from
+        if not self._from:  # before the first landmark there is nothing to be in doubt about
             return
-        cases = [case for case in self._near if case.landmark in evidence]
-        if any(hypothesis.landmark is None for hypothesis in self.hypotheses):
+        self._from = self.hypotheses = likely(self._grown(here, evidence, new))
+
+    def _grown(
+        self,
+        here: Here,
+        evidence: Mapping[str, float],
+        new: float,
+        *,
+        without: Hypothesis | None = None,
+    ) -> list[Hypothesis]:
+        """Return what the hypotheses but one become, if a place is each landmark or a new one."""
+        before = [h for h in self._from if h is not without]
+        cases = [
+            case for case in self._near
+            if case.before is not without and case.landmark in evidence
+        ]  # fmt: skip
+        if any(hypothesis.landmark is None for hypothesis in before):
             lookalikes = {name: nats for name, nats in evidence.items() if name in self._landmarks}
             best = max(lookalikes.values(), default=0.0)
             for name, nats in lookalikes.items():
@@ -237,38 +268,35 @@ class Whereabouts:
         grown = [
             Hypothesis(
                 case.landmark, case.fix, here,
-                case.before.weight - case.nats + evidence[case.landmark],
-                self._met(case), evidence[case.landmark],
+                case.before.weight - case.nats + evidence[case.landmark], self._met(case),
             )
             for case in cases
         ]  # fmt: skip
-        grown += [replace(h, weight=h.weight + new, seen=0.0) for h in self.hypotheses]
-        grown.sort(key=lambda hypothesis: -hypothesis.weight)
-        best = grown[0].weight
-        self.hypotheses = tuple(
-            replace(h, weight=h.weight - best) for h in grown[:MOST] if h.weight > best - BELOW
-        )
+        return grown + [replace(h, weight=h.weight + new) for h in before]
+
+    def _be_at(self, here: Here, *hypotheses: Hypothesis) -> None:
+        """Believe this of a place."""
+        self._doubts = 0
+        self._marked = here.place
+        self._from = self._before_mark = self.hypotheses = hypotheses
+
+    def _proven_by(self, case: Case) -> bool:
+        """Tell whether this case is beyond doubt: enough has fitted, and nothing else does."""
+        return self._met(case) >= PROVEN and _outweighs(case.before, self._from)
 
     def _from_anywhere(self, landmark: str) -> list[Case]:
         """Return the cases that this is a landmark, and the robot was anywhere before."""
         of = len(self._landmarks)
         return [
             case
-            for hypothesis in self.hypotheses if hypothesis.landmark is None
+            for hypothesis in self._from if hypothesis.landmark is None
             for case in cases_anywhere(hypothesis, self._here, landmark, of, self._sd)
         ]  # fmt: skip
 
-    def _look_anew(self) -> None:
-        """Take back what the place looked like: it is seen again, and counts only once."""
-        again = [replace(h, weight=h.weight - h.seen, seen=0.0) for h in self.hypotheses]
-        best = max((h.weight for h in again), default=0.0)
-        again = [replace(h, weight=h.weight - best) for h in again]
-        self.hypotheses = tuple(sorted(again, key=lambda h: -h.weight))
-
-    def _met(self, case: Case) -> int:
-        """Return how many landmarks have fitted if this is the case; the same one counts once."""
-        same = self._again and case.before.landmark == case.landmark
-        return min(case.before.met + (0 if same else 1), PROVEN)
+    @staticmethod
+    def _met(case: Case) -> int:
+        """Return how many landmarks have fitted if this is the case."""
+        return min(case.before.met + 1, PROVEN)
 
     def _likeliest(self, landmark: str) -> Case | None:
         """Return the likeliest way in which this can be a landmark."""
@@ -276,6 +304,10 @@ class Whereabouts:
         if landmark in self._landmarks:
             cases += self._from_anywhere(landmark)
         return max(cases, key=lambda case: case.before.weight - case.nats, default=None)
+
+
+def _outweighs(one: Hypothesis, hypotheses: Iterable[Hypothesis]) -> bool:
+    return all(other.weight < one.weight - PROOF for other in hypotheses if other is not one)
 
 
 def _nats(p: float) -> float:
