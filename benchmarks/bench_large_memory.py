@@ -10,6 +10,7 @@ somewhere, comparing views, base levels, noise.
 
 from __future__ import annotations
 
+import argparse
 import math
 import sys
 import tempfile
@@ -176,7 +177,9 @@ def measured(landmarks: int) -> Times:
 
 
 def main() -> None:
-    times = measured(int(sys.argv[1]) if len(sys.argv) > 1 else 10_000)
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("landmarks", nargs="?", type=int, default=10_000)
+    times = measured(parser.parse_args().landmarks)
     print(f"{times.landmarks} landmarks")
     print(f"  recognised, knowing where it was last  {1000 * times.knowing_s:.2f} ms")
     print(f"  recognised, lost                       {1000 * times.lost_s:.2f} ms")

@@ -1,12 +1,13 @@
 """Retrieval among many landmarks, against a plain loop over the chunks, in one run.
 
-    python benchmarks/bench_memory.py [landmarks] [references each]
+    python benchmarks/bench_memory.py [landmarks] [references]
 
 Both get the same memory, request and noise, and must choose the same landmark.
 """
 
 from __future__ import annotations
 
+import argparse
 import math
 import sys
 import time
@@ -118,8 +119,11 @@ def best_s(call: Callable[[], object], repeats: int) -> float:
 
 
 def main() -> None:
-    given = [int(word) for word in sys.argv[1:]]
-    landmarks, references = (given + [10_000, 5][len(given) :])[:2]
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("landmarks", nargs="?", type=int, default=10_000)
+    parser.add_argument("references", nargs="?", type=int, default=5)
+    options = parser.parse_args()
+    landmarks, references = options.landmarks, options.references
     memory, loop, request, t_s = fill(landmarks, references)
     found = memory.retrieve(request, t_s)  # the generators of both begin at seed 1
     winner = loop.retrieve(request, t_s, np.random.default_rng(1))

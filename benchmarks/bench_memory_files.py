@@ -1,12 +1,13 @@
 """Saving and loading a run's memory, against pickle and against plain json with indent, in one run.
 
-    python benchmarks/bench_memory_files.py [landmarks] [references each]
+    python benchmarks/bench_memory_files.py [landmarks] [references]
 
 All three write the same memory and must read back the same landmarks.
 """
 
 from __future__ import annotations
 
+import argparse
 import itertools
 import json
 import pickle
@@ -105,8 +106,11 @@ def names_in(memory: Any) -> list[str]:
 
 
 def main() -> None:
-    given = [int(word) for word in sys.argv[1:]]
-    landmarks, references = (given + [10_000, 5][len(given) :])[:2]
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("landmarks", nargs="?", type=int, default=10_000)
+    parser.add_argument("references", nargs="?", type=int, default=5)
+    options = parser.parse_args()
+    landmarks, references = options.landmarks, options.references
     memory = made(landmarks, references)
     print(f"{landmarks} landmarks, views of {BEAMS}, {references} references each")
     ways = {"ssrics-memory": with_ours, "pickle": with_pickle, "json, indent 1": with_json}

@@ -384,3 +384,17 @@ def test_mistakes_are_one_line(capsys, first, second, tmp_path):
         assert (status, said) == (1, "")
         assert message in complained
         assert complained.count("\n") == 1
+
+
+def test_a_word_where_a_view_should_be_is_said(first, tmp_path, capsys):
+    data = json.loads((first / "memory" / "run-000.json").read_text())
+    data["chunks"][1]["slots"]["view"] = "door"
+    odd = tmp_path / "odd.json"
+    odd.write_text(json.dumps(data))
+    name = data["chunks"][1]["name"]
+    out = tmp_path / "out"
+    for words in (("memory", "show", odd), ("run", "demo", "--memory-from", odd, "-o", out)):
+        code, _, err = run(capsys, *map(str, words))
+        assert code == 1
+        assert f"{odd}: chunk '{name}': view is 'door'; expected a view" in err
+    assert not out.exists()

@@ -55,6 +55,10 @@ def show(memory: Path, *, profile: str = "act-r", pause: float = 0.0, json: Flag
     how = load_memory(profile)
     file = one_memory_file(memory)
     saved = load_memory_file(file).aged(pause)
+    try:
+        saved.check_views(None)
+    except ValueError as error:
+        raise MemoryFileError(f"{file}: {error}") from None
     # A file does not say what its views are of; scans of as many beams are not usual.
     rows = summarised(saved, how, surroundings=saved.view_length == LENGTH)
     if json:

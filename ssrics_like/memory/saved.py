@@ -209,15 +209,19 @@ class SavedMemory:
         """How many numbers each view has; None without any view."""
         return next((len(view.descriptor) for view in self._views()), None)
 
-    def check_views(self, numbers: int) -> None:
-        """Check that views of so many numbers can be compared with those here.
+    def check_views(self, numbers: int | None) -> None:
+        """Check that views of so many numbers, None for any, can be compared with those here.
 
         Raises
         ------
         ValueError
-            If they have another length.
+            If they have another length, or a word stands where a view should.
         """
-        if self.view_length not in (None, numbers):
+        for each in self.chunks:
+            view = each.chunk.slots.get("view")
+            if view is not None and not isinstance(view, View):
+                raise ValueError(f"chunk '{each.chunk.name}': view is {view!r}; expected a view")
+        if numbers is not None and self.view_length not in (None, numbers):
             raise ValueError(
                 f"its views have {self.view_length} numbers, those of this model {numbers} "
                 "(perception.view and view_beams)"
