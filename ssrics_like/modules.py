@@ -180,6 +180,13 @@ class LandmarkModules:
         chunk = BufferChunk(found.chunk.type, words, name)
         return Recall(chunk, found.latency_s, confidence, measure)
 
+    def view_of(self, landmark: str) -> View | None:
+        """Return what a landmark is remembered to look like; None where memory holds no view."""
+        if landmark not in self.declarative:
+            return None
+        view = self.declarative[landmark].slots.get("view")
+        return view if isinstance(view, View) else None
+
     def surprise(self, view: str) -> float:
         """Return how surprising a view is among those of all landmarks (DeclarativeModule).
 

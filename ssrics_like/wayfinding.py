@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from ssrics_like.errors import EngineError, nearest
+from ssrics_like.memory.homing import where_alike
 from ssrics_like.memory.routes import Route, shortest_routes
 from ssrics_like.productions.interface import BufferChunk, StepRequest
 from ssrics_like.productions.vocabulary import WAY_SLOTS
@@ -32,6 +33,8 @@ ROUND, ROUND_SLACK_M = 4.0, 10.0
 """Where no way is remembered, one may be so much longer than the straight line."""
 NEAR_M, AT_GOAL_M = 0.6, 0.3
 """So near the robot has come to a landmark on the way, and to the one where the way ends."""
+CORRECTIONS = 2
+"""So often on the way to one landmark the robot corrects where it believes it to be."""
 NONE = "none"
 
 
@@ -110,6 +113,7 @@ class _Now:
     shut: set[frozenset[str]] = field(default_factory=set)
     sought: set[str] = field(default_factory=set)
     seeking: bool = False
+    corrected: int = 0
 
 
 class Wayfinder:
@@ -185,10 +189,33 @@ class Wayfinder:
         if now is None:
             return
         if event == "arrived":
+            if self._corrects():
+                return
             now.at = now.next
             errand = self.errands[-1]
             self._note(visited=(*errand.visited, now.at))
         self._happen(event, reason)
+
+    def _corrects(self) -> bool:
+        """Look where the landmark is that the robot believes to have come to; go on if not here.
+
+        What is a landmark is known when the robot has gone through, and a way may lead by several
+        that it does not go through. Until then it is found by what it looks like.
+        """
+        now, here = self._now, self.here
+        assert now is not None
+        believed, view = self._place(now.next), self._modules.view_of(now.next)
+        if believed is None or here is None or view is None or now.corrected >= CORRECTIONS:
+            return False
+        if not self._perception.looks_round:
+            return False
+        found = where_alike(view.descriptor, self._perception.view_of, believed)
+        if found is None:
+            return False
+        now.corrected += 1
+        self._modules.whereabouts.correct(now.next, found)
+        command = self.command
+        return command is not None and found.distance_m(here) > command.near_m
 
     def look(self, t_s: float) -> None:
         """Notice, at the source's time, whether the robot has lost or found its way."""
@@ -277,7 +304,7 @@ class Wayfinder:
         """Set the body going."""
         now = self._now
         assert now is not None
-        now.next = to
+        now.next, now.corrected = to, 0
         route = self._routes().get(to)
         path_m = route.path_m if route is not None else 0.0
         start, here = self._place(now.at), self.here

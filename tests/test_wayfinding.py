@@ -3,10 +3,12 @@
 import math
 
 import pytest
+from snapshots import seen_in_room
 
 from ssrics_like.errors import EngineError
 from ssrics_like.library import find
 from ssrics_like.memory import Here, TopologicalMemory, Uncertainty, Whereabouts
+from ssrics_like.memory.chunks import View
 from ssrics_like.memory.links import Link
 from ssrics_like.poses import Pose
 from ssrics_like.productions.engine import Engine
@@ -14,6 +16,7 @@ from ssrics_like.productions.interface import Recall, StepRequest
 from ssrics_like.productions.rulebook import load_rulebook
 from ssrics_like.wayfinding import (
     AT_GOAL_M,
+    CORRECTIONS,
     LONGER,
     NEAR_M,
     ROUND,
@@ -30,8 +33,9 @@ WAYS = [("L1", "L2", 4.0), ("L2", "L3", 3.0), ("L3", "L4", 4.0), ("L4", "L1", 3.
 class Landmarks:
     """A square of landmarks, of which the robot was last at the first; one lies apart."""
 
-    def __init__(self, *, lost=False):
+    def __init__(self, *, lost=False, views=None):
         self.topological = TopologicalMemory()
+        self._views = views or {}
         self.whereabouts = Whereabouts(
             Uncertainty(0.2, 0.25, 0.02, 0.002, 0.003), self.topological.links
         )
@@ -48,13 +52,22 @@ class Landmarks:
         else:
             self.whereabouts.find("L1", here)
 
+    def view_of(self, landmark):
+        return self._views.get(landmark)
+
 
 class Senses:
-    """Where the robot is, as a test says."""
+    """Where the robot is, as a test says; path integration is wrong by `off`."""
+
+    looks_round = True
 
     def __init__(self):
         self.here = Pose(0.0, 0.0, 0.0)
         self.carried = 0
+        self.off = Pose(0.0, 0.0, 0.0)
+
+    def view_of(self, place):
+        return seen_in_room(Pose(place.x_m - self.off.x_m, place.y_m - self.off.y_m, 0.0))
 
 
 class Nothing:
@@ -121,6 +134,32 @@ def test_it_leads_landmark_by_landmark_along_the_shortest_way():
     assert led.way.command is None
     assert (led.errand.outcome, led.errand.visited) == ("reached", ("L2", "L3"))
     assert led.errand.ended_s > led.errand.started_s
+
+
+def test_a_landmark_that_lies_beside_where_it_is_believed_to_be_is_found_by_its_look():
+    seen = View("view-of-L2", seen_in_room(Pose(*PLACES["L2"], 0.0)))
+    led = Led(views={"L2": seen})
+    led.order("L3")
+    led.senses.off = Pose(-1.5, 1.2, 0.0)
+    assert led.arrive() == PLACES["L2"]
+    assert led.errand.visited == ()  # it is not there
+    x_m, y_m = led.arrive()
+    assert (x_m, y_m) == pytest.approx((2.5, 1.2), abs=0.35)
+    assert led.errand.visited == ("L2",)
+    assert led.arrive() == pytest.approx((x_m, y_m + 3.0))  # all else is believed to lie so, too
+    assert led.errand.outcome == "reached"
+
+
+def test_it_does_not_look_for_ever():
+    led = Led(views={"L2": View("view-of-L2", seen_in_room(Pose(*PLACES["L2"], 0.0)))})
+    led.order("L3")
+    for i in range(CORRECTIONS):
+        led.senses.off = Pose(-1.5 * (i + 1), 0.0, 0.0)
+        led.arrive()
+        assert led.errand.visited == ()
+    led.senses.off = Pose(0.0, 0.0, 0.0)
+    led.arrive()
+    assert led.errand.visited == ("L2",)
 
 
 def test_what_is_near_enough_and_too_long_is_said_with_the_command():

@@ -105,6 +105,24 @@ class Whereabouts:
         link = self._links.seen_from(known.landmark).get(landmark)
         return None if link is None else known.fix.and_then(link)
 
+    def correct(self, landmark: str, place: Pose) -> None:
+        """Believe that a landmark lies elsewhere than path integration has it, and all others too.
+
+        Parameters
+        ----------
+        landmark : str
+            Which; where the robot is must be known, and a way from there to it.
+        place : Pose
+            Where it is, in the frame of path integration.
+        """
+        known, believed = self.known, self.place_of(landmark)
+        assert known is not None
+        assert believed is not None
+        x_m = known.fix.pose.x_m + place.x_m - believed.pose.x_m
+        y_m = known.fix.pose.y_m + place.y_m - believed.pose.y_m
+        fix = known.fix._replace(pose=Pose(x_m, y_m, known.fix.pose.theta_rad))
+        self._from = self.hypotheses = (replace(known, fix=fix), *self.hypotheses[1:])
+
     def lose(self) -> None:
         """Give up all hypotheses: the robot may be anywhere."""
         self._from = self.hypotheses = (ANYWHERE,)

@@ -240,6 +240,28 @@ class PerceptionBuffer:
         )
         return fired + [self._fire(moment) for moment in found]
 
+    @property
+    def looks_round(self) -> bool:
+        """Whether views are of what surrounds a place."""
+        return self._sights is not None and self._sights.around
+
+    def view_of(self, place: Pose) -> NDArray[np.float32]:
+        """Describe what surrounds a place near the robot, as `surround_view`.
+
+        Parameters
+        ----------
+        place : Pose
+            Frame of `here`, which must not be None; views must be of surroundings.
+
+        Returns
+        -------
+        ndarray, shape (72,), float32
+        """
+        assert self._sights is not None
+        assert self._here is not None
+        assert self._newest is not None
+        return self._sights.view_of(self._newest.pose.onward(place.seen_from(self._here)))
+
     def flush(self) -> list[Reflex]:
         """End the novel stretch, as at the end of a log; return reflexes kept back so far."""
         found = self._watch.flush() if self._sights is None else self._sights.flush()

@@ -54,6 +54,11 @@ class Sights:
         width if doorways are perceived, and else no structure is perceived.
     around : bool
         Whether moments are handed out with what surrounds their place.
+
+    Attributes
+    ----------
+    around : bool
+        The same.
     """
 
     def __init__(
@@ -65,7 +70,7 @@ class Sights:
         around: bool = False,
     ) -> None:
         self._watch = watch
-        self._around = around
+        self.around = around
         layout = structure is not None
         self._surroundings: Surroundings[Sensed] = Surroundings(
             wide=layout or around, layout=layout
@@ -111,12 +116,16 @@ class Sights:
 
     def _looked_round(self, moments: list[Moment]) -> list[Moment]:
         """Add what surrounds the places, if that is wanted."""
-        if not self._around:
+        if not self.around:
             return moments
         return [
             moment._replace(anchor=moment.anchor._replace(around=self._view_of(moment.anchor)))
             for moment in moments
         ]
+
+    def view_of(self, place: Pose) -> NDArray[np.float32]:
+        """Describe what surrounds a place near the robot, frame of odometry; needs `around`."""
+        return self._surroundings.view_of(place)
 
     def _view_of(self, anchor: Sensed) -> NDArray[np.float32]:
         """Look round; from a doorway without a direction there is nothing to begin with."""
