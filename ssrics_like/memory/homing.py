@@ -24,6 +24,8 @@ ASTRAY_M = 1.0
 has not marked on the way."""
 ALIKE = 0.7
 """Share of directions that must agree."""
+CLEARLY = 2.0
+"""By so much it must look more alike there than where it is believed to be."""
 FEWEST = 15
 """Fewer directions that are known, both now and then, say too little of where it is."""
 
@@ -48,7 +50,8 @@ def where_alike(
     Returns
     -------
     Pose or None
-        Where it is, of the same direction; None if nothing near looks like it.
+        Where it is, of the same direction; None if no place near looks like it, or none
+        clearly more so than where it is believed to be.
     """
     steps = np.arange(-round(REACH_M / STEP_M), round(REACH_M / STEP_M) + 1) * STEP_M
     along_m, aside_m = (side.ravel() for side in np.meshgrid(steps, steps))
@@ -63,6 +66,8 @@ def where_alike(
     several = known.sum(axis=1)
     off_m2 = along_m**2 + aside_m**2
     score = several * (agreeing - STRANGE) - 0.5 * off_m2 / ASTRAY_M**2
-    score[~((agreeing >= ALIKE) & (several >= FEWEST))] = -np.inf  # NaN where nothing is known
-    best = int(np.argmax(score))
-    return places[best] if np.isfinite(score[best]) else None
+    score[np.isnan(score)] = 0.0  # too few directions to compare
+    here = int(np.argmin(off_m2))
+    best = int(np.argmax(np.where(several >= FEWEST, score, -np.inf)))
+    found = several[best] >= FEWEST and agreeing[best] >= ALIKE
+    return places[best] if found and score[best] >= score[here] + CLEARLY else None
