@@ -38,6 +38,16 @@ pictures: run
 	cp out/complex/figures/locations.svg docs/images/complex-locations.svg
 	$(BIN)/ssrics run closed-door --out out/closed-door
 	cp out/closed-door/figures/map.svg docs/images/closed-door-map.svg
+	$(BIN)/ssrics run complex -n 1 --set perception=human-like --set productions=landmark --out out/view
+	$(BIN)/ssrics view out/view --out out/view.html
+	chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --virtual-time-budget=3000 \
+	  --window-size=1440,1060 --screenshot=docs/images/view.png "file://$(CURDIR)/out/view.html#t=329.1&why"
+	$(BIN)/ssrics run complex -n 6 --set perception=human-like --set productions=landmark --out out/human-like
+	$(BIN)/ssrics run complex -n 6 --out out/report
+	$(BIN)/ssrics study simulate complex --out out/people.csv
+	$(BIN)/ssrics compare out/human-like out/report out/people.csv --out out/compared
+	chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1200,1180 \
+	  --screenshot=docs/images/people.png "file://$(CURDIR)/out/compared/comparison.html"
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("ssrics-like needs Python 3.11 or newer, this is " + sys.version.split()[0] if sys.version_info < (3, 11) else 0)'

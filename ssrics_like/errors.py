@@ -56,6 +56,10 @@ class MemoryFileError(SsricsError, ValueError):
     """A saved memory is damaged, of another kind, or newer than this version reads."""
 
 
+class StudyError(SsricsError, ValueError):
+    """A study cannot be served, its answers not be stored, read or imported."""
+
+
 class MissingPackageError(SsricsError, ImportError):
     """A package that only some commands need is not installed."""
 

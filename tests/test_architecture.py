@@ -22,6 +22,7 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
     "model": {"errors", "cues", "library", "decision", "modules", "wayfinding", *MIND},
     "results": {"errors", "atomic", "decision", "model", *MIND},
     "comparison": {"errors", "results", "world", "maps"},
+    "people": {"errors", "results", "world", "maps", "comparison"},
     "bench": {
         "errors",
         "settings",
@@ -39,6 +40,7 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
         "scenarios",
         "training",
     },
+    "study": {"errors", "settings", "library", "results", "scenarios", "maps", "world"},
     "training": {"errors", "perception", "world", "comparison", "scenarios"},
     "scenarios": {
         "errors",
@@ -54,7 +56,18 @@ INNER = {  # layer -> the layers of the package that it may use, itself aside
         "comparison",
         *MIND,
     },
-    "report": {"errors", "memory", "results", "comparison", "maps", "world"},
+    "report": {"errors", "memory", "results", "comparison", "people", "maps", "world"},
+    "viewer": {
+        "errors",
+        "perception",
+        "productions",
+        "memory",
+        "results",
+        "comparison",
+        "report",
+        "sources",
+        "world",
+    },
 }
 
 
@@ -91,6 +104,8 @@ def test_each_foreign_engine_has_its_own_files():
         "pyactr": {"productions/engine.py", "productions/buffers.py"},
         "networkx": {"memory/topological.py", "memory/store.py"},
         "cyclopts": {"cli/__init__.py", "cli/options.py"},
+        "sqlalchemy": {"study/tables.py", "study/database.py", "study/store.py", "study/app.py"},
+        "fastapi": {"study/app.py", "study/routes.py", "study/admin.py", "study/serving.py"},
     }
     for path in PACKAGE.rglob("*.py"):
         here = str(path.relative_to(PACKAGE))

@@ -1,4 +1,4 @@
-"""``ssrics compare``: marks against what people labelled."""
+"""``ssrics compare``: marks against what people labelled, or against what each of them marked."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ssrics_like.cli.options import Out, Radii
+from ssrics_like.cli.compare_people import compare_with_people, is_choices
+from ssrics_like.cli.options import Bin, Out, Radii, Whole, metres_of
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -18,36 +19,64 @@ COLUMN = 13
 FIGURES_WIDTH = 26
 
 
-def compare(*folders: Path, radius: Radii = (), out: Out = None) -> None:
-    """Compare the marks of results folders with labelled places, and with chance.
+def compare(
+    *folders: Path,
+    radius: Radii = (),
+    locations: str | None = None,
+    bin_m: Bin = None,
+    seed: Whole | None = None,
+    out: Out = None,
+) -> None:
+    """Compare the marks of results folders with labelled places, or with people's choices.
 
     For example:
 
         ssrics compare out/
         ssrics compare out/ truth/intel_lab -o compared/
         ssrics compare onset/ peak/ maps/office.yaml --radius 1
+        ssrics compare model-a/ model-b/ people.csv -o compared/
 
     Parameters
     ----------
     folders
         Results folders that run or replay has written, and last what was labelled: a folder with
         truth.csv, crossings.csv and poses.csv, or a map's YAML file. If that is left out, the
-        locations of the map that the runs were made on.
+        locations of the map that the runs were made on. Or last a CSV file of people's choices
+        (participant,landmark,x_m,y_m): then people and models are compared with one another.
     radius
-        How near a mark has to lie, metres; may be given again. 0.5, 1, 1.5 and 2 if left out.
+        How near a mark has to lie, metres; may be given again. 0.5, 1, 1.5 and 2 if left out; with
+        people's choices one only, 1 if left out.
+    locations
+        With people's choices: a map's YAML file that labels the locations, or cluster to find them
+        from people's marks. The locations of the runs' map if left out.
+    bin_m
+        With people's choices: length of the bins that the route is cut in, metres; 1 if left out.
+    seed
+        With people's choices: of the draws that intervals are made of; 1 if left out.
     out
         Folder for comparison.csv, .json and .svg, and for tables of what became of each mark,
-        place and passage.
+        place and passage; with people's choices for comparison.html, tables and figures.
     """
     from rich.console import Console
 
     from ssrics_like.comparison import compare_folder, truth_at, write_comparison
     from ssrics_like.comparison.compared import RADII_M
-    from ssrics_like.errors import ResultsError
+    from ssrics_like.errors import ResultsError, SettingsError
 
     if not folders:
         raise ResultsError("compare: name a results folder, and what was labelled after it")
-    radii_m = sorted({_checked(text) for text in radius}) or RADII_M
+    if is_choices(folders[-1]):
+        compare_with_people(
+            folders[:-1], folders[-1],
+            radius=radius, locations=locations, bin_m=bin_m, seed=seed, out=out,
+        )  # fmt: skip
+        return
+    for name, value in (("--locations", locations), ("--bin", bin_m), ("--seed", seed)):
+        if value is not None:
+            raise SettingsError(
+                f"{name}: goes with people's choices only; expected a .csv file after the folders"
+            )
+    radii_m = sorted({metres_of("--radius", text) for text in radius}) or RADII_M
     truth = truth_at(folders[-1])
     chosen = folders if truth is None else folders[:-1]
     if not chosen:
@@ -63,18 +92,6 @@ def compare(*folders: Path, radius: Radii = (), out: Out = None) -> None:
 
         for file in write_comparison(made, out, comparison_svg(made)):
             print(file)
-
-
-def _checked(text: str) -> float:
-    from ssrics_like.errors import ResultsError
-
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value <= 100.0:  # noqa: PLR2004 - no building is larger
-        raise ResultsError(f"--radius: '{text}': expected metres, more than 0 and at most 100")
-    return value
 
 
 def _tables(made: Sequence[Compared]) -> list[Table]:

@@ -30,9 +30,34 @@ Runs = Annotated[
     int | None,
     Parameter(name=["--runs", "-n"], converter=_whole, validator=validators.Number(gte=1)),
 ]
+Columns = Annotated[tuple[str, ...], Parameter(negative="", consume_multiple=False)]
+Trials = Annotated[tuple[str, ...], Parameter(name="--trial", negative="", consume_multiple=False)]
+Bin = Annotated[str | None, Parameter(name="--bin")]
 Jobs = Annotated[
     int | None,
     Parameter(name=["--jobs", "-j"], converter=_whole, validator=validators.Number(gte=1)),
 ]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative="")]
 Flag = Annotated[bool, Parameter(negative="")]
+
+METRES_MAX = 100.0
+"""No building is larger."""
+
+
+def metres_of(name: str, text: str) -> float:
+    """Read metres, more than 0 and at most 100.
+
+    Raises
+    ------
+    SettingsError
+        They are not.
+    """
+    from ssrics_like.errors import SettingsError
+
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value <= METRES_MAX:
+        raise SettingsError(f"{name}: '{text}': expected metres, more than 0 and at most 100")
+    return value
