@@ -48,6 +48,11 @@ def printed(*command):
             ],
             "| kidnapped: wrong | generated |",
         ),
+        (
+            "bench_study.py",
+            ["--people", "3", "--responses", "5", "--pause", "0"],
+            "| 3 | 15 | 15 | 0 |",
+        ),
         ("report_rule.py", [DEMO], "| demo.log.gz | 1642 |"),
         (
             "bench_drive.py",

@@ -23,7 +23,10 @@ from ssrics_like.cli import (
     report,
     run,
     schema,
+    study,
+    study_simulate,
     train,
+    view,
 )
 from ssrics_like.errors import SsricsError
 
@@ -52,6 +55,7 @@ app.command(compare.compare, help_epilogue="")
 app.command(library.list_entries, name="list", help_epilogue="")
 app.command(library.show, help_epilogue="")
 app.command(report.report, help_epilogue="")
+app.command(view.view, help_epilogue="")
 app.command(schema.schema, help_epilogue="")
 app.command(train.train, help_epilogue="")
 several = Parameter(consume_multiple=True, negative="")
@@ -80,6 +84,20 @@ memory_app.command(memory.show, help_epilogue="")
 memory_app.command(memory.merge, help_epilogue="")
 memory_app.command(memory.export, help_epilogue="")
 app.command(memory_app)
+study_app = App(
+    name="study",
+    help="Collect people's choices of landmarks on a web page.",
+    help_epilogue="""For example:
+
+    ssrics study serve complex
+    ssrics study export complex -o answers/""",
+)
+study_app.command(study.new, help_epilogue="")
+study_app.command(study.serve, help_epilogue="")
+study_app.command(study.export, help_epilogue="")
+study_app.command(study.import_choices, name="import", help_epilogue="")
+study_app.command(study_simulate.simulate, help_epilogue="")
+app.command(study_app)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

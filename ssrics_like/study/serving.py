@@ -1,0 +1,74 @@
+"""Serving a study: sockets, addresses, the end."""
+
+from __future__ import annotations
+
+import contextlib
+import ipaddress
+import socket
+
+import uvicorn
+from fastapi import FastAPI
+
+from ssrics_like.errors import StudyError
+
+
+def is_loopback(host: str) -> bool:
+    """Tell whether only this machine can reach a host's address."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+def bound(host: str, port: int) -> socket.socket:
+    """Return a socket that listens.
+
+    Parameters
+    ----------
+    host : str
+        Address or name to bind to.
+    port : int
+        0 for any that is free.
+
+    Raises
+    ------
+    StudyError
+        It cannot be had.
+    """
+    try:
+        family, kind, protocol, _, address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+        found = socket.socket(family, kind, protocol)
+    except (OSError, UnicodeError, OverflowError) as e:
+        raise StudyError(f"--host {host}: cannot be bound to ({e})") from None
+    try:
+        found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        found.bind(address)
+        found.listen(128)
+    except (OSError, OverflowError) as e:
+        found.close()
+        why = getattr(e, "strerror", None) or e
+        raise StudyError(f"--port {port}: cannot be had on {host} ({why})") from None
+    return found
+
+
+def address_of(listening: socket.socket, host: str) -> str:
+    """Return the address to open in a browser."""
+    shown = "127.0.0.1" if host in ("0.0.0.0", "") else "[::1]" if host == "::" else host  # noqa: S104
+    if ":" in shown and not shown.startswith("["):
+        shown = f"[{shown}]"
+    return f"http://{shown}:{listening.getsockname()[1]}/"
+
+
+def serve(app: FastAPI, listening: socket.socket) -> None:
+    """Serve until interrupted; nothing about requests is logged."""
+    config = uvicorn.Config(
+        app, log_level="warning", access_log=False, server_header=False, date_header=True,
+        timeout_graceful_shutdown=5, lifespan="off", proxy_headers=True,
+    )  # fmt: skip
+    # Ctrl-C is how serving ends; every response has been saved before it was answered.
+    with contextlib.suppress(KeyboardInterrupt):
+        uvicorn.Server(config).run(sockets=[listening])
