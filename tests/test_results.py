@@ -598,6 +598,7 @@ def test_numbers_have_at_most_six_decimals_and_no_needless_zeros(value):
 
 def test_what_is_no_number_is_left_empty():
     assert csv_line([None, math.nan, math.inf, -0.0, 1e-9, 3, "a,b"]) == ',,,0,0,3,"a,b"\n'
+    assert csv_line(["2nd door, left", 1.5, '3"']) == '"2nd door, left",1.5,"3"""\n'
 
 
 def test_an_atomic_write_that_fails_leaves_the_old_file(tmp_path):

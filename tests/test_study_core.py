@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from ssrics_like.errors import ResultsError
 from ssrics_like.maps import load_choices
 from ssrics_like.perception.observation import Pose
-from ssrics_like.study.csv_table import csv_table
+from ssrics_like.results.files import csv_text
 from ssrics_like.study.events import Response
 from ssrics_like.study.export import Answers, passes, tables_of
 from ssrics_like.study.frames import (
@@ -334,7 +334,7 @@ NUMBERS = st.floats(-1e5, 1e5).map(lambda x: round(x, 3))
 def test_an_imported_table_has_the_places_that_the_formula_gives(rows, sx, sy, ox, oy):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "raw.csv"
-        path.write_text(csv_table(("who", "u", "v", "name"), rows), encoding="utf-8", newline="")
+        path.write_text(csv_text(("who", "u", "v", "name"), rows), encoding="utf-8", newline="")
         columns = {"participant": "who", "x_m": "u", "y_m": "v", "label": "name"}
         text = imported(path, columns, Units(sx, sy, ox, oy))
         path.write_text(text, encoding="utf-8", newline="")

@@ -51,8 +51,14 @@ def json_text(data: Any, *, indent: int | None = 2) -> str:
 
 def csv_line(values: Iterable[Any]) -> str:
     """Return one CSV row; numbers as by `number`."""
-    cells = [number(v) if v is None or isinstance(v, int | float) else str(v) for v in values]
-    if any(_SPECIAL.search(cell) for cell in cells if cell and not cell[0].isdigit()):
+    plain_cells, cells = True, []
+    for value in values:
+        if value is None or isinstance(value, int | float):
+            cells.append(number(value))
+            continue
+        cells.append(str(value))
+        plain_cells = plain_cells and not _SPECIAL.search(cells[-1])
+    if not plain_cells:
         buffer = io.StringIO()
         csv.writer(buffer, lineterminator="\n").writerow(cells)
         return buffer.getvalue()

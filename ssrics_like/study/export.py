@@ -8,7 +8,7 @@ from dataclasses import astuple, dataclass, fields
 from typing import Any
 
 from ssrics_like.errors import StudyError, choices, nearest
-from ssrics_like.study.csv_table import csv_table
+from ssrics_like.results.files import csv_text
 from ssrics_like.study.events import Response
 from ssrics_like.study.marks import Mark, marks_of
 from ssrics_like.study.participant import Participant
@@ -132,7 +132,7 @@ def choices_text(answers: Answers, trials: Iterable[str]) -> str:
                 t_s = None if mark.replay_ms is None else mark.replay_ms / 1000
                 name = f"{trial}-{number}"
                 rows.append((person.name, name, mark.x_m, mark.y_m, mark.label, t_s))
-    return csv_table(CHOICES, rows)
+    return csv_text(CHOICES, rows)
 
 
 def responses_text(answers: Answers) -> str:
@@ -140,7 +140,7 @@ def responses_text(answers: Answers) -> str:
     header = [field.name for field in fields(Response)]
     rank = {person.name: i for i, person in enumerate(answers.participants)}
     ordered = sorted(answers.responses, key=lambda each: rank[each.participant])
-    return csv_table(header, (astuple(each) for each in ordered))
+    return csv_text(header, (astuple(each) for each in ordered))
 
 
 def participants_text(answers: Answers) -> str:
@@ -162,7 +162,7 @@ def participants_text(answers: Answers) -> str:
                 len(passed), sum(passed),
             )
         )  # fmt: skip
-    return csv_table(PARTICIPANTS, rows)
+    return csv_text(PARTICIPANTS, rows)
 
 
 def passes(trial: dict[str, Any], responses: list[Response]) -> bool:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ssrics_like.errors import StudyError, choices, nearest
 from ssrics_like.maps.tables import Table
-from ssrics_like.study.csv_table import csv_table
+from ssrics_like.results.files import csv_text
 from ssrics_like.study.export import CHOICES
 from ssrics_like.study.plan_picture import on_map
 from ssrics_like.world.grid import GridMap
@@ -120,4 +120,4 @@ def imported(
     table.finish()
     if not rows:
         raise StudyError(f"{path}: no row has a place in {columns['x_m']} and {columns['y_m']}")
-    return csv_table(CHOICES, rows)
+    return csv_text(CHOICES, rows)
