@@ -17,6 +17,20 @@ venv/bin/ssrics --version
 venv/bin/ssrics list
 venv/bin/ssrics run simple --out results
 venv/bin/ssrics run demo --out demo --quiet
+venv/bin/ssrics view results --out run.html
+test -s run.html
+venv/bin/python -m pip --disable-pip-version-check install --quiet \
+    --constraint "$checkout/constraints.txt" "$(echo "$place"/dist/*.whl)[study]"
+venv/bin/ssrics study new mine --out study
+venv/bin/ssrics study simulate simple --participants 3 --out people.csv
+venv/bin/ssrics compare results people.csv --out compared >compared.txt
+test -s compared/comparison.html
+venv/bin/python - <<'END'
+from importlib import resources
+
+for name in ("static/plan.js", "template/plan.html"):
+    assert resources.files("ssrics_like.study").joinpath(name).is_file(), name
+END
 for name in manifest.json decisions.csv landmarks.csv path.csv map/map.png scores.json report.html; do
     test -s "results/$name" || { echo "wheel: results/$name is missing" >&2; exit 1; }
 done
