@@ -223,7 +223,10 @@ def test_several_folders_stand_side_by_side(capsys, world, tmp_path):
         (["{log}", "{tmp}/nowhere"], "{tmp}/nowhere: no such file or folder"),
         (["{tmp}/nowhere", "{labels}"], "{tmp}/nowhere: no such folder"),
         (["{log}", "{tmp}"], "{tmp}: expected a results folder, which has manifest.json, or a fo"),
-        (["{log}", "{log}/manifest.json"], "{log}/manifest.json: expected a folder of labels, or a"),
+        (
+            ["{log}", "{log}/manifest.json"],
+            "{log}/manifest.json: expected a folder of labels, or a",
+        ),
         (["{short}", "{labels}"], "{short}: run 0 has 20 scans, but {labels}/poses.csv 1201: the"),
         (["{log}", "{map}"], "{log}/manifest.json: frame: 'odometry': expected positions on the "),
         (["{world}", "{bare}"], "{bare}: locations: no place is labelled, expected at least one"),
