@@ -144,6 +144,15 @@ def test_a_store_is_found_again(tmp_path):
     assert sqlite3.connect(name).execute("select count(*) from ssrics_responses").fetchone() == (2,)
 
 
+def test_answers_are_for_the_eyes_of_who_serves_the_study(tmp_path):
+    made = Store(str(tmp_path / "answers.sqlite"))
+    made.belong_to("A study", OUTLINE)
+    files = list(tmp_path.iterdir())
+    assert len(files) > 1
+    assert {file.stat().st_mode & 0o777 for file in files} == {0o600}
+    made.close()
+
+
 def test_sqlite_writes_ahead_and_to_the_disk(tmp_path):
     engine = engine_of(str(tmp_path / "answers.sqlite"))
     with engine.connect() as connection:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -66,9 +68,16 @@ def engine_of(name: str) -> Engine:
         engine = create_engine(url, connect_args={"timeout": WAIT_S})
     except (NoSuchModuleError, ImportError) as e:
         raise StudyError(f"database: no driver for '{url.drivername}' ({e})") from None
+    event.listen(engine, "do_connect", partial(_make, Path(str(url.database))))
     event.listen(engine, "connect", _set_up)
     event.listen(engine, "begin", _begin)
     return engine
+
+
+def _make(file: Path, *_: Any) -> None:
+    """Make a new file for its owner's eyes; SQLite gives those beside it the same rights."""
+    with suppress(OSError):  # what is wrong with it, connecting will say
+        file.touch(mode=0o600)
 
 
 def _set_up(connection: Any, _record: Any) -> None:
