@@ -17,11 +17,10 @@ import numpy as np
 
 from ssrics_like.decision import Decision
 from ssrics_like.errors import EngineError
+from ssrics_like.expecting import PLACE_OF, Expecting, here_of
 from ssrics_like.memory import (
     Chunk,
     DeclarativeMemory,
-    Expected,
-    Here,
     Hypothesis,
     Listed,
     ListedSimilarity,
@@ -41,8 +40,7 @@ from ssrics_like.poses import Pose
 from ssrics_like.productions.interface import BufferChunk, MarkRequest, Recall, SlotTest
 
 CONTINUOUS = ("view", "place")
-VIEW_OF, PLACE_OF = "view-of-", "place-of-"
-UNSETTLED = 0.5  # a robot that is lost is not more confident than this
+VIEW_OF = "view-of-"
 REMEMBERED = 64  # decided reflexes whose handles rules may still use
 
 
@@ -89,8 +87,6 @@ class LandmarkModules:
             turn_rad=profile.turn_drift_rad,
             bias=profile.wheel_bias,
         )
-        self._expected = Expected()
-        self._asked_for: tuple[int, tuple[Hypothesis, ...]] | None = None
         self.start_from(TopologicalMemory())
         self._decided = decided
         self._retrieved = retrieved
@@ -110,6 +106,7 @@ class LandmarkModules:
         self.topological = topological
         self.appraisal = Appraisal(self.declarative, topological, self.profile.lasting_s)
         self.whereabouts = Whereabouts(self._uncertainty, topological.links)
+        self._expecting = Expecting(self.whereabouts, topological)
         self._passing = Passing(topological.links)
         if len(topological):
             self.whereabouts.lose()
@@ -161,7 +158,7 @@ class LandmarkModules:
         """
         slots = tuple((t.slot, self._asked(t.slot, t.value), t.negated) for t in tests)
         found = self.declarative.retrieve(Request(chunk_type, slots), t_s, sources)
-        confidence = self._confidence(found)
+        confidence = self._expecting.confidence(found)
         self._recalled = found, confidence
         self._retrieved(t_s, found)
         name = None if found.chunk is None else found.chunk.name
@@ -231,16 +228,16 @@ class LandmarkModules:
         if request.outcome == "declared":
             name = self.topological.next_id()
             made = self._declare(name, reflex)
-            self._expect(reflex)
-            before = self.whereabouts.find(name, _here(reflex), *self._evidence())
+            self._expecting.at(reflex)
+            before = self.whereabouts.find(name, here_of(reflex), *self._evidence)
             self._arrive(name, reflex, before, new=True)
         elif request.outcome == "recognised":
-            self._expect(reflex)
-            before = self.whereabouts.recognise(name, _here(reflex), *self._evidence())
+            self._expecting.at(reflex)
+            before = self.whereabouts.recognise(name, here_of(reflex), *self._evidence)
             self._arrive(name, reflex, before, new=False)
         elif request.outcome == "unsure" and self._recalled is not None:
-            self._expect(reflex)
-            self.whereabouts.doubt(_here(reflex), *self._evidence())
+            self._expecting.at(reflex)
+            self.whereabouts.doubt(here_of(reflex), *self._evidence)
         self._decide(
             request.event, request.t_s, request.outcome, name, request.rule, self._recalled
         )
@@ -287,43 +284,12 @@ class LandmarkModules:
         if not new:
             self.topological.visit(name, reflex.t_s)
 
-    def _expect(self, reflex: Reflex) -> None:
-        """Reckon how improbable each landmark is where a reflex was fired."""
-        asked = reflex.event, self.whereabouts.hypotheses
-        if self._asked_for != asked:  # rules ask, and decide, about the same place
-            self._asked_for = asked
-            self._expected = self.whereabouts.expect(_here(reflex), self.topological)
-
-    def _evidence(self) -> tuple[dict[str, float], float]:
-        """Return what else but its place speaks for each landmark, and for none of them.
-
-        That it is familiar does not: how often it was met says nothing of where the robot has come
-        since, and would count again at every landmark.
-        """
-        if self._recalled is None:
-            return {}, 0.0
-        found = self._recalled[0].candidates
-        evidence = {
-            str(name): float(context) + self._expected[str(name)]
-            for name, context in zip(found.names, found.by_context, strict=True)
-        }
-        return evidence, found.threshold_by_context
-
-    def _confidence(self, recalled: Retrieval) -> float:
-        """Return how probable it is that what was recalled, or that nothing was, is right."""
-        share = recalled.share
-        name = None if recalled.chunk is None else recalled.chunk.name
-        if self.whereabouts.in_doubt:  # what was seen lately is not therefore nearer
-            share = min(share, recalled.share_by_context)
-        return share if self.whereabouts.settled(name, share) else min(share, UNSETTLED)
-
     def _likeness_of_places(self, asked: Value) -> Listed:
-        """Similarity of landmarks' places to that of a reflex, which was reckoned before."""
-        del asked
-        near: dict[Value, float] = {
-            f"{PLACE_OF}{name}": -nats for name, nats in self._expected.nats.items()
-        }
-        return Listed(near, -self._expected.elsewhere)
+        return self._expecting.likeness(asked)
+
+    @property
+    def _evidence(self) -> tuple[dict[str, float], float]:
+        return self._expecting.evidence(None if self._recalled is None else self._recalled[0])
 
     def _asked(self, slot: str, word: str) -> Value:
         """Look up what a request asks for; only views and places are more than words."""
@@ -332,13 +298,12 @@ class LandmarkModules:
         if slot == "view" and (stored := self._stored_view(word)) is not None:
             return stored
         if slot == "place" and word.startswith(PLACE_OF):  # where a landmark is, no other is
-            self._asked_for = None
-            self._expected = Expected({word.removeprefix(PLACE_OF): 0.0})
+            self._expecting.only(word.removeprefix(PLACE_OF))
             return word
         reflex = self._reflex_of(slot, word)
         if slot == "view":
             return View(word, reflex.view)
-        self._expect(reflex)
+        self._expecting.at(reflex)
         return word
 
     def _kept(self, slot: str, word: str, name: str) -> Value:
@@ -355,10 +320,7 @@ class LandmarkModules:
     def _stored_view(self, word: str) -> View | None:
         """Return the view of a landmark, by its handle."""
         owner = word.removeprefix(VIEW_OF)
-        if owner == word or owner not in self.declarative:
-            return None
-        stored = self.declarative[owner].slots.get("view")
-        return stored if isinstance(stored, View) else None
+        return None if owner == word else self.view_of(owner)
 
     def _reflex_of(self, slot: str, word: str) -> Reflex:
         """Return the reflex that a handle belongs to."""
@@ -402,7 +364,3 @@ class LandmarkModules:
                 confidence=None if recalled is None else recalled[1],
             )
         )
-
-
-def _here(reflex: Reflex) -> Here:
-    return Here(reflex.place, reflex.directed, reflex.travelled_m, reflex.turned_rad)

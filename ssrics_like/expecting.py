@@ -1,0 +1,84 @@
+"""What the model expects where a reflex was fired, and how sure it is of what memory answers."""
+
+from __future__ import annotations
+
+from ssrics_like.memory import (
+    Expected,
+    Here,
+    Hypothesis,
+    Listed,
+    Retrieval,
+    TopologicalMemory,
+    Value,
+    Whereabouts,
+)
+from ssrics_like.perception.reflex import Reflex
+
+PLACE_OF = "place-of-"
+UNSETTLED = 0.5  # a robot that is lost is not more confident than this
+
+
+def here_of(reflex: Reflex) -> Here:
+    """Return where a reflex was fired."""
+    return Here(reflex.place, reflex.directed, reflex.travelled_m, reflex.turned_rad)
+
+
+class Expecting:
+    """Which landmark is expected where, reckoned once for each reflex.
+
+    Parameters
+    ----------
+    whereabouts : Whereabouts
+        Where the robot believes to be.
+    landmarks : TopologicalMemory
+        All there are.
+    """
+
+    def __init__(self, whereabouts: Whereabouts, landmarks: TopologicalMemory) -> None:
+        self._whereabouts = whereabouts
+        self._landmarks = landmarks
+        self._expected = Expected()
+        self._asked_for: tuple[int, tuple[Hypothesis, ...]] | None = None
+
+    def at(self, reflex: Reflex) -> None:
+        """Expect what is where a reflex was fired."""
+        asked = reflex.event, self._whereabouts.hypotheses
+        if self._asked_for != asked:  # rules ask, and decide, about the same place
+            self._asked_for = asked
+            self._expected = self._whereabouts.expect(here_of(reflex), self._landmarks)
+
+    def only(self, landmark: str) -> None:
+        """Expect one landmark: where it is, no other is."""
+        self._asked_for = None
+        self._expected = Expected({landmark: 0.0})
+
+    def likeness(self, asked: Value) -> Listed:
+        """Return the similarity of landmarks' places to the place of which that was reckoned."""
+        del asked
+        near: dict[Value, float] = {
+            f"{PLACE_OF}{name}": -nats for name, nats in self._expected.nats.items()
+        }
+        return Listed(near, -self._expected.elsewhere)
+
+    def evidence(self, recalled: Retrieval | None) -> tuple[dict[str, float], float]:
+        """Return what else but its place speaks for each landmark, and for none of them.
+
+        That it is familiar does not: how often it was met says nothing of where the robot has come
+        since, and would count again at every landmark.
+        """
+        if recalled is None:
+            return {}, 0.0
+        found = recalled.candidates
+        evidence = {
+            str(name): float(context) + self._expected[str(name)]
+            for name, context in zip(found.names, found.by_context, strict=True)
+        }
+        return evidence, found.threshold_by_context
+
+    def confidence(self, recalled: Retrieval) -> float:
+        """Return how probable it is that what was recalled, or that nothing was, is right."""
+        share = recalled.share
+        name = None if recalled.chunk is None else recalled.chunk.name
+        if self._whereabouts.in_doubt:  # what was seen lately is not therefore nearer
+            share = min(share, recalled.share_by_context)
+        return share if self._whereabouts.settled(name, share) else min(share, UNSETTLED)
