@@ -45,7 +45,7 @@ def compare_with_people(
 
     from ssrics_like.errors import ResultsError, SettingsError
     from ssrics_like.people import Settings, compare_people, read_folders
-    from ssrics_like.people.settings import BIN_M, RADIUS_M, SEED
+    from ssrics_like.people.settings import BIN_LEAST_M, BIN_M, RADIUS_M, SEED
 
     if not folders:
         raise ResultsError(f"compare: name a results folder before {choices}")
@@ -57,9 +57,11 @@ def compare_with_people(
         raise SettingsError(f"--seed: {seed}: expected 0 or more")
     settings = Settings(
         radius_m=metres_of("--radius", radius[0]) if radius else RADIUS_M,
-        bin_m=metres_of("--bin", bin_m) if bin_m is not None else BIN_M,
+        bin_m=metres_of("--bin", bin_m, least=BIN_LEAST_M) if bin_m is not None else BIN_M,
         seed=SEED if seed is None else seed,
     )
+    if out is not None and out.exists() and not out.is_dir():
+        raise ResultsError(f"{out}: is a file, expected a folder")
     read = read_folders(folders, choices, locations, settings.radius_m)
     made = compare_people(
         read.people, read.models, read.locations, settings, clustered=read.clustered

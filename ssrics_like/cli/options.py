@@ -44,8 +44,8 @@ METRES_MAX = 100.0
 """No building is larger."""
 
 
-def metres_of(name: str, text: str) -> float:
-    """Read metres, more than 0 and at most 100.
+def metres_of(name: str, text: str, *, least: float = 0.0) -> float:
+    """Read metres: more than 0, or `least` and more, and at most 100.
 
     Raises
     ------
@@ -58,6 +58,7 @@ def metres_of(name: str, text: str) -> float:
         value = float(text)
     except ValueError:
         value = 0.0
-    if not 0.0 < value <= METRES_MAX:
-        raise SettingsError(f"{name}: '{text}': expected metres, more than 0 and at most 100")
+    if not (value > 0.0 and least <= value <= METRES_MAX):
+        from_m = f"{least:g} or more" if least else "more than 0"
+        raise SettingsError(f"{name}: '{text}': expected metres, {from_m} and at most 100")
     return value

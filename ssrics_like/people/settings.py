@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 RADIUS_M = 1.0
 BIN_M = 1.0
+BIN_LEAST_M = 0.1
+"""Nobody marks more closely, and the bins of a building would be too many."""
 SEED = 1
 RESAMPLES = 2000
 CONSENSUS = 0.5

@@ -60,7 +60,7 @@ def draw_people_agreement(made: Beside) -> Drawing | None:
         f"Matrix of Cohen's kappa of every two of {count} markers",
         "Cohen's κ of every two markers over all units: people first, in order of their mean κ "
         "with the other people, then the runs of each model, likewise with the people. White is "
-        f"agreement as by chance, blue above, red below it.{_undefined(values)}",
+        f"agreement as by chance, blue above, orange below it.{_undefined(values)}",
     )
 
 
@@ -78,7 +78,7 @@ def agreement_order(made: Beside) -> list[int]:
 
 
 def colours_of_kappa() -> Colormap:
-    """Return colours of kappa from -1, red, over 0, white, to 1, blue."""
+    """Return colours of kappa from -1, orange, over 0, white, to 1, blue."""
     from matplotlib.colors import LinearSegmentedColormap
 
     return LinearSegmentedColormap.from_list("kappa", [style.VERMILION, "white", "#00487a"])
