@@ -211,7 +211,11 @@ def import_choices(
 
     if not all(math.isfinite(number) for number in (*scale, *offset)):
         raise StudyError("--scale, --offset: expected finite numbers")
+    if 0.0 in scale:
+        raise StudyError("--scale: 0 would put everybody in one place")
     mapping = read_mapping(columns)
+    if out.exists() and file.exists() and out.samefile(file):
+        raise StudyError(f"{out}: is the table itself; name another file")
     if out.is_dir():
         raise StudyError(f"{out}: is a folder, expected a file")
     pixels = None

@@ -74,6 +74,17 @@ def engine_of(name: str) -> Engine:
     return engine
 
 
+def identity(engine: Engine) -> tuple[int, int] | None:
+    """Return what tells SQLite's file from any other, (0, 0) where it is gone; None on a server."""
+    if engine.dialect.name != "sqlite":
+        return None
+    try:
+        found = Path(str(engine.url.database)).stat()
+    except FileNotFoundError:
+        return 0, 0
+    return found.st_dev, found.st_ino
+
+
 def _make(file: Path, *_: Any) -> None:
     """Make a new file for its owner's eyes; SQLite gives those beside it the same rights."""
     with suppress(OSError):  # what is wrong with it, connecting will say

@@ -11,7 +11,7 @@ from ssrics_like.errors import StudyError, choices, nearest
 from ssrics_like.maps.tables import Table
 from ssrics_like.results.files import csv_text
 from ssrics_like.study.export import CHOICES
-from ssrics_like.study.plan_picture import on_map
+from ssrics_like.study.plan_picture import is_on_picture, on_map
 from ssrics_like.world.grid import GridMap
 
 NEEDED = ("participant", "x_m", "y_m")
@@ -90,7 +90,7 @@ def imported(
     MapError
         The table cannot be read, lacks a column, or a cell is no number.
     StudyError
-        No row has a place.
+        No row has a place, or one has none that can be.
     """
     table = Table(path, tuple(dict.fromkeys(columns.values())), ())
     made: dict[str, int] = {}
@@ -102,10 +102,17 @@ def imported(
         participant = table.word(line, cells, columns["participant"])
         x, y = (table.number(line, cells, columns[key]) for key in ("x_m", "y_m"))
         t = table.number(line, cells, columns["t_s"]) if given.get("t_s") else math.nan
+        if math.isnan(x) or math.isnan(y):  # is noted
+            continue
         if pixels_of is None:
             x_m, y_m = x * units.scale_x + units.offset_x_m, y * units.scale_y + units.offset_y_m
         else:
-            x_m, y_m = on_map(pixels_of, x * pixels_of.cell_m, y * pixels_of.cell_m)
+            right_m, down_m = x * pixels_of.cell_m, y * pixels_of.cell_m
+            if not is_on_picture(pixels_of, right_m, down_m):
+                raise StudyError(f"{path}:{line}: pixel {x:g}, {y:g} is not on the map's picture")
+            x_m, y_m = on_map(pixels_of, right_m, down_m)
+        if not (math.isfinite(x_m) and math.isfinite(y_m)):
+            raise StudyError(f"{path}:{line}: the place is not finite; see --scale and --offset")
         made[participant] = made.get(participant, 0) + 1
         rows.append(
             (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import ipaddress
+import signal
 import socket
 
 import uvicorn
@@ -69,6 +70,8 @@ def serve(app: FastAPI, listening: socket.socket) -> None:
         app, log_level="warning", access_log=False, server_header=False, date_header=True,
         timeout_graceful_shutdown=5, lifespan="off", proxy_headers=True,
     )  # fmt: skip
-    # Ctrl-C is how serving ends; every response has been saved before it was answered.
+    # Ctrl-C is how serving ends; every response has been saved before it was answered. A service
+    # is ended by SIGTERM, in the same way: uvicorn hands it on when it has stopped.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     with contextlib.suppress(KeyboardInterrupt):
         uvicorn.Server(config).run(sockets=[listening])

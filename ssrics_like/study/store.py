@@ -14,12 +14,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict, replace
 from typing import Any
 
-from sqlalchemy import Connection, Row, case, func, insert, select, update
-from sqlalchemy.exc import DBAPIError, IntegrityError
+from sqlalchemy import Connection, Row, case, func, insert, inspect, select, update
+from sqlalchemy.exc import DBAPIError, IntegrityError, OperationalError
 
 from ssrics_like.errors import StudyError
 from ssrics_like.results.manifest import difference
-from ssrics_like.study.database import WRITES, engine_of, shown
+from ssrics_like.study.database import WRITES, engine_of, identity, shown
 from ssrics_like.study.events import Response
 from ssrics_like.study.participant import Participant
 from ssrics_like.study.refused import Refused
@@ -45,8 +45,15 @@ class Store:
         self._engine = engine_of(name)
         self._sqlite = self._engine.dialect.name == "sqlite"
         self._turn = threading.Lock()  # SQLite has one writer; to wait here is fairer than there
-        with self._complaining(), self._writing() as connection:
-            metadata.create_all(connection)
+        self._identity: tuple[int, int] | None = None
+        try:
+            self._check_tables()
+            with self._complaining(), self._writing() as connection:
+                metadata.create_all(connection)
+        except StudyError:
+            self.close()
+            raise
+        self._identity = identity(self._engine)
         kept = self._kept()
         if kept is not None and kept.version > VERSION:
             self.close()
@@ -225,6 +232,26 @@ class Store:
         with self._engine.connect() as connection:
             return {str(name): int(count) for name, count in connection.execute(wanted)}
 
+    def _check_tables(self) -> None:
+        """Check that the database is empty, or a study's: nobody's else is touched.
+
+        Raises
+        ------
+        StudyError
+            It is another program's.
+        """
+        with self._complaining():
+            there = inspect(self._engine)
+            names = set(there.get_table_names())
+            foreign = self._sqlite and bool(names) and not names & metadata.tables.keys()
+            for name in names & metadata.tables.keys():
+                columns = {column["name"] for column in there.get_columns(name)}
+                foreign |= not columns >= set(metadata.tables[name].columns.keys())
+        if foreign:
+            raise StudyError(
+                f"{self.name}: holds another program's tables; expected a study's, or none"
+            )
+
     def _kept(self) -> Row[Any] | None:
         with self._complaining(), self._engine.connect() as connection:
             return connection.execute(select(study)).first()
@@ -232,6 +259,9 @@ class Store:
     @contextlib.contextmanager
     def _writing(self) -> Iterator[Connection]:
         """Open a transaction that is committed at the end; one at a time on SQLite."""
+        if self._identity is not None and identity(self._engine) != self._identity:
+            # SQLite would go on in a file that nobody can find any more.
+            raise OperationalError("", None, OSError(f"{self.name} is not there any more"))
         turn = self._turn if self._sqlite else contextlib.nullcontext()
         with (
             turn,

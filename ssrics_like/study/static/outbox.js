@@ -15,6 +15,7 @@ export class Outbox {
     this.place = `ssrics:${participant}`;
     this.onState = onState;
     this.memory = [];  // where the browser keeps nothing
+    this.refused = "";  // "over": the step is; "refused": an answer was not taken
     window.addEventListener("online", () => this.flush());
     document.addEventListener("visibilitychange", () => this.flush());
   }
@@ -56,10 +57,12 @@ export class Outbox {
       }
       pause = 500;
       if (status === 401) { stopped = true; this.onState("gone"); return; }
-      // Saved, or never to be taken: it belongs to a step that is over.
+      // Saved, or never to be taken; then it is not called saved.
+      if (status === 409) this.refused ||= "over";
+      else if (status >= 400) this.refused = "refused";
       this.keep(this.waiting().filter(each => each.key !== first.key));
     }
-    if (!stopped) this.onState("saved");
+    if (!stopped) this.onState(this.refused || "saved");
   }
 }
 

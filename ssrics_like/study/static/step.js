@@ -3,6 +3,8 @@ import { Outbox, newKey } from "/static/outbox.js";
 
 const SAID = {
   saving: "Saving …", saved: "Saved", gone: "This session is over. Load the page again.",
+  over: "This step is over. Load the page again.",
+  refused: "An answer could not be saved. Load the page again to see what is.",
   waiting: "No connection. Your answers are kept here and sent later.",
 };
 
@@ -18,6 +20,7 @@ export class Step {
       const state = await step.load();
       if (state.step !== step.state.step) { location.reload(); await new Promise(() => {}); }
       step.state = state;
+      step.outbox.refused = "";  // what was not taken, the page does not show
     }
     step.startClock();
     if (!step.state.begun) step.send("begin");

@@ -5,6 +5,7 @@ import { drawFan, drawView } from "/static/scene.js";
 import { Step } from "/static/step.js";
 
 const TELL_MS = 2000;  // so often the server is told how far the replay has got
+const SETTLED_MS = 1500;  // so long after its end nobody presses for a landmark any more
 const LOST_MS = 2500;  // a longer gap between two pictures is a closed lid, or the like
 const step = await Step.begin();
 const get = id => document.getElementById(id);
@@ -99,7 +100,8 @@ function over() {
   curtain("That was the walk.", null);
   get("time").value = 1;
   get("done").hidden = false;
-  get("done").focus({ preventScroll: true });
+  // Not at once: a press that was meant for a landmark would leave the step.
+  setTimeout(() => get("done").focus({ preventScroll: true }), SETTLED_MS);
 }
 
 function mark(stamp) {
