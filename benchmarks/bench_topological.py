@@ -40,7 +40,7 @@ def share(right: int, of: int) -> str:
 def recognition_rows(course: str, visit: int, models: list[RecognitionTally]) -> list[Row]:
     """Return what was recognised on one visit, by the model and both matchers."""
     ours = models[0]
-    where = [f"{course}, visit {visit + 1}"]
+    where = [f"{course}, visit {bench_recognition.VISITS[visit]}"]
     log = course == "log"
     rows = [
         ["recognised", *where, "≥ 85" if log else "≥ 95", str(ours.again)]

@@ -32,6 +32,7 @@ from ssrics_like.productions.rules import Rulebook
 from ssrics_like.wayfinding import Wayfinder
 
 FRAMES = ("odometry", "corrected", "map")
+NO_HOME = "it remembers no home: where a first run began that marked a landmark"
 DRIFTS = ("place_drift", "swerve_drift_rad", "turn_drift_rad", "wheel_bias")
 
 
@@ -58,6 +59,9 @@ class CognitiveModel:
     remembered : SavedMemory, optional
         What an earlier run left: the model begins with it at the moment of its saving (see
         `SavedMemory.aged`), and numbers landmarks on.
+    at_home : bool
+        Whether the robot begins where the first run of that memory began; otherwise it may be
+        anywhere.
 
     Attributes
     ----------
@@ -73,7 +77,8 @@ class CognitiveModel:
     LibraryError, CueError
         There is no cue of the name in `perception`; it is damaged.
     ValueError
-        `remembered` has views of another length, or positions in another frame.
+        `remembered` has views of another length, or positions in another frame; with `at_home`,
+        there is none or it knows no home.
 
     Examples
     --------
@@ -95,6 +100,7 @@ class CognitiveModel:
         trace: Callable[[TraceEvent], None] = lambda _: None,
         retrieved: Callable[[float, Retrieval], None] = lambda _time, _retrieval: None,
         remembered: SavedMemory | None = None,
+        at_home: bool = False,
     ) -> None:
         if frame not in FRAMES:
             raise ValueError(f"frame is {frame!r}; expected one of {choices(FRAMES)}")
@@ -132,13 +138,16 @@ class CognitiveModel:
         )
         self._frame = frame
         self._remembered = remembered
+        self._at_home = at_home
         self._start_s: float | None = None
         self._previous: Observation | None = None
         if remembered is not None:
             remembered.check_views(perception.view_length)
             remembered.check_frame(frame)
             remembered.recall_into(self._modules.declarative)
-            self._modules.start_from(remembered.topological())
+            self._modules.start_from(remembered.topological(), remembered.home)
+        if at_home and (remembered is None or remembered.home is None):
+            raise ValueError(NO_HOME)
 
     @property
     def declarative(self) -> DeclarativeMemory:
@@ -188,19 +197,22 @@ class CognitiveModel:
         if self._start_s is None:
             self._start_s = observation.t_s
             self._modules.begin(observation.t_s)
-            if self._remembered is not None:  # the graph's times are those of the source
-                self._modules.start_from(self._remembered.topological(observation.t_s))
+            if (known := self._remembered) is not None:  # the graph's times are the source's
+                self._modules.start_from(known.topological(observation.t_s), known.home)
         if self._previous is not None and observation.t_s < self._previous.t_s:
             raise ValueError(
                 f"observation {observation.index} is at {observation.t_s} s, before "
                 f"{self._previous.t_s} s; observations must come in order of time"
             )
+        began = self._previous is None
         self._previous = observation
         now_s = observation.t_s - self._start_s
         self.engine.advance(now_s)
         for reflex in self.perception.update(observation):
             self._orient(reflex, now_s)
         here = self.perception.here
+        if began and here is not None:
+            self._modules.begin_at(here, at_home=self._at_home)
         if here is not None and self.perception.carried == self._modules.carried:
             self._modules.go(here, self.perception.travelled_m)
         self.wayfinder.look(observation.t_s)
@@ -248,6 +260,7 @@ class CognitiveModel:
             now_s=self.now_s,
             start_s=self._start_s or 0.0,
             frame=self._frame,
+            home=self._modules.home,
         )
 
     def _orient(self, reflex: Reflex, now_s: float) -> None:

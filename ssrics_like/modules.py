@@ -21,7 +21,10 @@ from ssrics_like.expecting import PLACE_OF, Expecting, here_of
 from ssrics_like.memory import (
     Chunk,
     DeclarativeMemory,
+    Here,
+    Home,
     Hypothesis,
+    Link,
     Listed,
     ListedSimilarity,
     Request,
@@ -91,6 +94,7 @@ class LandmarkModules:
         self._decided = decided
         self._retrieved = retrieved
         self._start_s = 0.0
+        self._start: Pose | None = None
         self._waiting: dict[str, Reflex] = {}
         self._known: OrderedDict[str, Reflex] = OrderedDict()
         self._recalled: tuple[Retrieval, float] | None = None
@@ -101,9 +105,10 @@ class LandmarkModules:
         """Number of reflexes about which nothing was decided yet."""
         return len(self._waiting)
 
-    def start_from(self, topological: TopologicalMemory) -> None:
+    def start_from(self, topological: TopologicalMemory, home: Home | None = None) -> None:
         """Begin with a graph; where in it the robot is, it does not know."""
         self.topological = topological
+        self.home = home
         self.appraisal = Appraisal(self.declarative, topological, self.profile.lasting_s)
         self.whereabouts = Whereabouts(self._uncertainty, topological.links)
         self._expecting = Expecting(self.whereabouts, topological)
@@ -114,6 +119,14 @@ class LandmarkModules:
     def begin(self, start_s: float) -> None:
         """Set the source's time that is zero in the engine."""
         self._start_s = start_s
+
+    def begin_at(self, start: Pose, *, at_home: bool) -> None:
+        """Note where the robot begins, by path integration, and whether that is home."""
+        self._start = start
+        if at_home:
+            assert self.home is not None
+            there = self.home.landmark_from(start)
+            self.whereabouts.begin(self.home.landmark, there, Here(start, False, 0.0, 0.0))
 
     def go(self, here: Pose, travelled_m: float) -> None:
         """Note where the robot is by path integration; landmarks passed unseen are missed."""
@@ -227,6 +240,8 @@ class LandmarkModules:
             self._passing.marked(reflex.place)
         if request.outcome == "declared":
             name = self.topological.next_id()
+            if not len(self.topological):
+                self._come_from_home(name, reflex)
             made = self._declare(name, reflex)
             self._expecting.at(reflex)
             before = self.whereabouts.find(name, here_of(reflex), *self._evidence)
@@ -243,6 +258,18 @@ class LandmarkModules:
         )
         self._recalled = None
         return made
+
+    def _come_from_home(self, name: str, reflex: Reflex) -> None:
+        """Remember where the run began, seen from its first landmark."""
+        if self._start is None or self.carried:  # that it came from there is not known
+            return
+        start = Hypothesis(
+            None, Link(self._start, 0.0, 0.0), Here(self._start, False, 0.0, 0.0), 0.0
+        )
+        drift = self._uncertainty.since(start, here_of(reflex))
+        seen = self._start.seen_from(reflex.place)
+        if all(map(math.isfinite, (seen.x_m, seen.y_m, seen.theta_rad))):
+            self.home = Home.of(name, Link(seen, drift.variance_m2, drift.variance_rad2))
 
     def _declare(self, name: str, reflex: Reflex) -> BufferChunk:
         """Add a landmark to the graph; return its chunk for the landmark buffer."""

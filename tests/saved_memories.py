@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from ssrics_like.memory import (
     Arc,
     Chunk,
+    Home,
     Landmark,
     PastRun,
     RememberedChunk,
@@ -110,6 +111,8 @@ def memories(draw):
         )
     )
     runs = draw(st.dictionaries(TEXT, AGES, max_size=3))
+    spread = st.floats(0.001, 1e3)
+    homes = st.builds(Home, st.sampled_from(names), *[NUMBERS] * 3, spread, spread)
     return SavedMemory(
         saved_s=draw(NUMBERS),
         frame=draw(st.sampled_from(["odometry", "map"])),
@@ -118,4 +121,5 @@ def memories(draw):
         landmarks=landmarks,
         arcs=arcs,
         origins={name: f"run/{number}" for number, name in enumerate(names)},
+        home=draw(st.none() | homes) if names else None,
     )

@@ -1,5 +1,6 @@
 """Runs that go on from the memory of others, and the command that looks at memories."""
 
+import csv
 import hashlib
 import json
 import math
@@ -70,7 +71,7 @@ def test_the_next_run_begins_with_it_and_says_so(first, second):
     file = first / "memory" / "run-000.json"
     digest = hashlib.sha256(file.read_bytes()).hexdigest()
     manifest = read_manifest(second)
-    told = {"name": "first", "sha256": digest, "pause_s": 3600.0}
+    told = {"name": "first", "sha256": digest, "pause_s": 3600.0, "start": "unknown"}
     assert manifest["scenario"]["memory_from"] == told
     for entry in manifest["runs"]:
         assert entry["memory_from"] == {"file": "run-000.json", "sha256": digest}
@@ -84,6 +85,37 @@ def test_the_next_run_begins_with_it_and_says_so(first, second):
     for one, other in zip(before.chunks, after.chunks, strict=True):
         grown_s = {round(b - a, 6) for a, b in zip(one.ages_s, other.ages_s, strict=False)}
         assert grown_s == {round(after.runs[0].ended_ago_s, 6)}
+
+
+def test_a_run_from_home_knows_the_first_place_at_once(capsys, first, second, tmp_path):
+    out = tmp_path / "home"
+    carried_out(out, memory_from=str(first), memory_start="home")
+    assert read_manifest(out)["scenario"]["memory_from"]["start"] == "home"
+    confident = {}
+    for each in (out, second):
+        with (each / "decisions.csv").open() as lines:
+            row = next(row for row in csv.DictReader(lines) if row["landmark"] == "L1")
+        confident[each] = float(row["confidence"])
+    assert confident[out] > confident[second]
+    assert memory_of(out).home == memory_of(first).home
+    for each, said in ((out, "0.0 s before; the robot begins at home"), (second, "1:00:00 before")):
+        assert run(capsys, "report", each)[0] == 0
+        assert f"run-000.json, {said}<" in (each / "report.html").read_text()
+
+
+def test_home_must_be_remembered(capsys, first, tmp_path):
+    path = scenario_file(tmp_path, "memory_start: home")
+    assert refusal(path).endswith("memory_start: home needs memory_from, which knows where that is")
+    saved = replace(memory_of(first), home=None)
+    save_memory_file(saved, tmp_path / "old.json")
+    status, _, complained = run(
+        capsys, "replay", DEMO, "-o", tmp_path / "out", "-q", "--memory-from",
+        tmp_path / "old.json", "--set", "memory_start=home",
+    )  # fmt: skip
+    assert status == 1
+    assert complained.count("\n") == 1
+    assert "old.json: remembers no home, which memory_start: home needs" in complained
+    assert not (tmp_path / "out").exists()
 
 
 def test_the_same_runs_give_the_same_memory_and_run_ids(first, tmp_path):

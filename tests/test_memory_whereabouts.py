@@ -270,3 +270,16 @@ def test_hypotheses_that_agree_are_one():
     assert [(h.landmark, h.met) for h in kept] == [("L1", 3), ("L1", 3), ("L2", 3)]
     assert [h.weight for h in kept] == pytest.approx([0.0, -3.0 - both, -4.0 - both])
     assert kept[0].fix == one.fix
+
+
+def test_a_robot_that_is_not_where_it_was_said_to_begin_finds_out():
+    whereabouts, names = corridor(DRIFTING, doors=8)
+    whereabouts.begin("L1", Link(Pose(0.0, 0.0, 0.0), 0.04, 0.01), here(0.5, 0.0, directed=False))
+    assert whereabouts.expect(here(4.0, 0.0, 0.0, 3.5), names)["L2"] < 2.0
+    # It began 12 m further on; the doors look like those there, a hundred times to one.
+    for i in range(4):
+        place = here(4.0 * i, 0.0, 0.0, 4.0 * i + 0.5)
+        whereabouts.expect(place, names)
+        looks = {name: 0.0 if name == f"L{i + 4}" else -math.log(100.0) for name in names}
+        whereabouts.doubt(place, looks, -math.log(100.0))
+    assert whereabouts.hypotheses[0].landmark == "L7"

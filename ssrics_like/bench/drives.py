@@ -54,24 +54,29 @@ class Simulated:
         What it serves.
     visit : int
         Which drive through that building; from the second on it begins at a place drawn at random.
+    back : bool
+        It begins where the first one began.
     """
 
     condition: Condition
     seed: int
     purpose: int = TESTING
     visit: int = 0
+    back: bool = False
 
 
 @dataclass(frozen=True)
 class OnPlan:
     """A drive through a floor plan, from a place drawn at random; `seed` says which.
 
-    The laser, robot and odometry are those of `condition`; the building is the plan's.
+    The laser, robot and odometry are those of `condition`; the building is the plan's. It may begin
+    where another drive, of the seed `begun`, does.
     """
 
     folder: Path
     seed: int
     condition: Condition = NOMINAL
+    begun: int | None = None
 
 
 @dataclass(frozen=True)
@@ -197,6 +202,8 @@ def stage(spec: Simulated | OnPlan) -> Stage:
 def _plan_stage(spec: OnPlan) -> Stage:
     plan, robot = load_plan(spec.folder), spec.condition.robot()
     placing, driving = np.random.SeedSequence((TESTING, spec.seed)).spawn(2)
+    if spec.begun is not None:
+        placing = np.random.SeedSequence((TESTING, spec.begun)).spawn(1)[0]
     start = _drawn_start(plan.grid, robot.radius_m, np.random.default_rng(placing))
     return Stage(plan.grid, robot, start, driving, plan.locations, plan.lines_m)
 
@@ -216,7 +223,8 @@ def _generated_stage(spec: Simulated) -> Stage:
         )  # fmt: skip
     if spec.visit:
         placing, driving = driving.spawn(spec.visit + 1)[-1].spawn(2)
-        start = _drawn_start(grid, robot.radius_m, np.random.default_rng(placing))
+        if not spec.back:
+            start = _drawn_start(grid, robot.radius_m, np.random.default_rng(placing))
     return Stage(grid, robot, start, driving, building.locations, lines_m, condition.people)
 
 

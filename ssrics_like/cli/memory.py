@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -69,7 +70,7 @@ def show(memory: Path, *, profile: str = "act-r", pause: float = 0.0, json: Flag
     from ssrics_like.results.counts import counted
 
     print(
-        f"{file}: {_counted(saved)}, {counted(len(saved.runs), 'run')}; "
+        f"{file}: {_counted(saved)}, {counted(len(saved.runs), 'run')}{_home(saved)}; "
         f"activations by '{profile}', {pause:g} s after the saving"
     )
     Console(width=WIDTH, highlight=False, markup=False).print(_table(rows))
@@ -192,6 +193,11 @@ def _figure(value: float | None, decimals: int) -> str:
     from ssrics_like.report.words import figure_text
 
     return figure_text(float("nan") if value is None else value, decimals)
+
+
+def _home(memory: SavedMemory) -> str:
+    home = memory.home
+    return f", home {math.hypot(home.x_m, home.y_m):.1f} m from {home.landmark}" if home else ""
 
 
 def _counted(memory: SavedMemory) -> str:

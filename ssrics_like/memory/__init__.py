@@ -8,8 +8,10 @@ from ssrics_like.memory.candidates import CandidateRow, Candidates, Retrieval
 from ssrics_like.memory.chunks import Chunk, Request, Value, View
 from ssrics_like.memory.declarative import DeclarativeMemory
 from ssrics_like.memory.expectation import Expected, Uncertainty
+from ssrics_like.memory.home import Home
 from ssrics_like.memory.hypotheses import Here, Hypothesis
 from ssrics_like.memory.landmark import Arc, Landmark
+from ssrics_like.memory.links import Link
 from ssrics_like.memory.parameters import MemoryParameters
 from ssrics_like.memory.routes import Route, shortest_routes
 from ssrics_like.memory.saved import PastRun, RememberedChunk, SavedMemory
@@ -37,8 +39,10 @@ __all__ = [
     "Expected",
     "FunctionSimilarity",
     "Here",
+    "Home",
     "Hypothesis",
     "Landmark",
+    "Link",
     "Listed",
     "ListedSimilarity",
     "MemoryParameters",

@@ -85,7 +85,7 @@ def merge(one: SavedMemory, other: SavedMemory) -> Merged:
         the larger number of visits, and of opportunities missed. Its others get the next free
         numbers, in their names and wherever a slot holds these. Arcs of both are kept; of one that
         both have, the estimate with more traversals, since how much of it is from before they
-        parted is not known.
+        parted is not known. Home is that of `one`, if it has one.
 
     Returns
     -------
@@ -125,6 +125,7 @@ def merge(one: SavedMemory, other: SavedMemory) -> Merged:
         landmarks=tuple(landmarks.values()),
         arcs=tuple(arcs.values()),
         origins={**{names[k]: origin for k, origin in other.origins.items()}, **one.origins},
+        home=one.home or (other.home and replace(other.home, landmark=names[other.home.landmark])),
     )
     return Merged(memory, joined, renamed)
 

@@ -13,6 +13,7 @@ from typing import TypeVar
 
 from ssrics_like.memory.chunks import Chunk, View
 from ssrics_like.memory.declarative import DeclarativeMemory
+from ssrics_like.memory.home import Home
 from ssrics_like.memory.landmark import Arc, Landmark, finite, length
 from ssrics_like.memory.topological import TopologicalMemory
 
@@ -72,12 +73,14 @@ class SavedMemory:
     origins : mapping of str to str
         By landmark: the run that declared it and its name there, ``RUN/L3``; whatever it is
         called since, it is the same landmark.
+    home : Home or None
+        Where the first run began; None where that is not known.
 
     Raises
     ------
     ValueError
         For a name that stands twice, an age that is negative or not finite, views of several
-        lengths, a landmark without origin, or an arc that begins or ends at no landmark.
+        lengths, a landmark without origin, or an arc or home that belongs to no landmark.
     """
 
     saved_s: float
@@ -87,6 +90,7 @@ class SavedMemory:
     landmarks: tuple[Landmark, ...]
     arcs: tuple[Arc, ...]
     origins: Mapping[str, str]
+    home: Home | None = None
 
     def __post_init__(self) -> None:
         finite("saved_s", self.saved_s)
@@ -114,6 +118,8 @@ class SavedMemory:
         for arc in self.arcs:
             if not {arc.from_id, arc.to_id} <= names:
                 raise ValueError(f"arc from '{arc.from_id}' to '{arc.to_id}' joins no landmarks")
+        if self.home is not None and self.home.landmark not in names:
+            raise ValueError(f"home: landmark '{self.home.landmark}' is not there")
 
     @classmethod
     def of(
@@ -126,6 +132,7 @@ class SavedMemory:
         now_s: float,
         start_s: float,
         frame: str,
+        home: Home | None = None,
     ) -> SavedMemory:
         """Take down what two memories hold.
 
@@ -143,6 +150,8 @@ class SavedMemory:
             The beginning on the clock of `topological`.
         frame : str
             Frame of the positions.
+        home : Home, optional
+            Where the first run began.
 
         Raises
         ------
@@ -170,6 +179,7 @@ class SavedMemory:
                 landmark.id: known.get(landmark.id, f"{run}/{landmark.id}")
                 for landmark in topological.nodes
             },
+            home=home,
         )
 
     def aged(self, seconds: float) -> SavedMemory:

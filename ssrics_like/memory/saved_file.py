@@ -12,7 +12,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +30,7 @@ from ssrics_like.memory.files import (
     shown,
     write_whole,
 )
+from ssrics_like.memory.home import Home
 from ssrics_like.memory.landmark import LAYOUT_LABELS, Label, Landmark
 from ssrics_like.memory.saved import PastRun, RememberedChunk, SavedMemory
 from ssrics_like.memory.store import DECIMALS, from_node_link, node_link, save_topology
@@ -115,7 +116,7 @@ def memory_bytes(memory: SavedMemory, path: Path) -> bytes:
     MemoryFileError
         If a slot holds a number that is not finite.
     """
-    head = {
+    head: dict[str, Any] = {
         "format": FORMAT,
         "version": VERSION,
         "saved_s": round(memory.saved_s, DECIMALS) + 0.0,
@@ -125,6 +126,8 @@ def memory_bytes(memory: SavedMemory, path: Path) -> bytes:
             for run in memory.runs
         ],
     }
+    if memory.home is not None:
+        head["home"] = _home_data(memory.home)
     linked = node_link(_labelled(memory), memory.arcs)
     graph = {key: value for key, value in linked.items() if key not in ("nodes", "edges")}
     lines = [f"{json.dumps(key)}: {json.dumps(value)}" for key, value in head.items()]
@@ -133,6 +136,13 @@ def memory_bytes(memory: SavedMemory, path: Path) -> bytes:
     inner += [_block(key, linked[key], path) for key in ("nodes", "edges")]
     lines.append('"topology": {\n' + ",\n".join(inner) + "\n}")
     return ("{\n" + ",\n".join(lines) + "\n}\n").encode()
+
+
+def _home_data(home: Home) -> dict[str, Any]:
+    return {
+        key: value if isinstance(value, str) else round(value, DECIMALS) + 0.0
+        for key, value in asdict(home).items()
+    }
 
 
 def _block(key: str, items: Iterable[Any], path: Path) -> str:
@@ -194,6 +204,7 @@ def memory_from(path: Path, content: bytes) -> SavedMemory:
             landmarks=landmarks,
             arcs=arcs,
             origins=origins,
+            home=_home(path, head["home"]) if "home" in head else None,
         )
     except MemoryFileError:
         raise
@@ -220,6 +231,18 @@ def _run(path: Path, given: Any) -> PastRun:
     name = _expect(path, "runs: an id", run.get("id"), str, "text")
     at = f"run '{name}': ended_ago_s"
     return PastRun(name, float(_expect(path, at, run.get("ended_ago_s"), float, "a number")))
+
+
+def _home(path: Path, given: Any) -> Home:
+    home = _expect(path, "home", given, dict, "its landmark and pose")
+    landmark = _expect(path, "home: landmark", home.get("landmark"), str, "text")
+    return Home(
+        landmark,
+        *(
+            float(_expect(path, f"home: {each.name}", home.get(each.name), float, "a number"))
+            for each in fields(Home)[1:]
+        ),
+    )
 
 
 def _chunk(path: Path, given: Any) -> RememberedChunk:

@@ -25,7 +25,7 @@ from ssrics_like.poses import Pose
 
 ELSEWHERE = 0.05
 """Weight of the hypothesis that the robot may be anywhere, beside that of a landmark that begins a
-new part of the graph."""
+new part of the graph, or of being where it is said to begin."""
 SURE = 0.85
 """So sure a robot that was lost must be of a landmark until its whereabouts are proven: buildings
 have rows of doorways that look alike."""
@@ -128,6 +128,22 @@ class Whereabouts:
         self._from = self.hypotheses = (ANYWHERE,)
         self._marked = None
         self._doubts = 0
+
+    def begin(self, landmark: str, fix: Link, here: Here) -> None:
+        """Begin near a landmark, as is likely, or anywhere.
+
+        Parameters
+        ----------
+        landmark : str
+            Which.
+        fix : Link
+            Where it lies, in the frame of path integration.
+        here : Here
+            Where the robot begins.
+        """
+        self.lose()
+        elsewhere = replace(ANYWHERE, weight=math.log(ELSEWHERE))
+        self._from = self.hypotheses = (Hypothesis(landmark, fix, here, 0.0), elsewhere)
 
     def settled(self, landmark: str | None, share: float) -> bool:
         """Tell whether the robot, if it was lost, knows enough to say which landmark this is.

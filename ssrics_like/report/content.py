@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
 
+from ssrics_like.memory.home import HOME
 from ssrics_like.report.location_tables import locations_of
 from ssrics_like.report.markers import TIPPED_MAX
 from ssrics_like.report.records import Results
@@ -243,17 +244,23 @@ def _errand_rows(run: Run) -> list[dict[str, str]]:
     ]
 
 
+def _began(scenario: Mapping[str, Any]) -> str:
+    """Say when and where, as seen from its memory, a run began."""
+    memory = scenario.get("memory_from") or {}
+    before = f"{time_text(float(memory.get('pause_s') or 0.0))} before"
+    return f"{before}; the robot begins at home" if memory.get("start") == HOME else before
+
+
 def _facts(results: Results) -> list[tuple[str, str]]:
     """Return where the results come from."""
     manifest = results.manifest
     source, versions = manifest["input"], manifest["versions"]
     memory = results.shown.entry.get("memory_from")
-    pause_s = float(results.scenario.get("memory_pause_s") or 0.0)
     return [
         ("input", f"{source['file']} ({source['format']})"),
         ("sha256", str(source["sha256"])),
         ("frame of positions", str(manifest["frame"])),
         ("seed", str(manifest["seed"])),
-        *([("memory from", f"{memory['file']}, {time_text(pause_s)} before")] if memory else []),
+        *([("memory from", f"{memory['file']}, {_began(results.scenario)}")] if memory else []),
         ("versions", ", ".join(f"{name} {version}" for name, version in versions.items())),
     ]

@@ -123,6 +123,7 @@ def _through(
             trace=recorder.traced,
             retrieved=recorder.retrieved,
             remembered=None if remembered is None else remembered.memory,
+            at_home=recollection is not None and recollection.at_home,
         )
         feed.be_led(model.wayfinder)
         for observation in itertools.chain([first], rest):

@@ -12,6 +12,7 @@ from typing import Any
 from ssrics_like.errors import MemoryFileError
 from ssrics_like.memory import SavedMemory
 from ssrics_like.memory.files import read_whole
+from ssrics_like.memory.home import HOME, UNKNOWN
 from ssrics_like.memory.saved_file import memory_from
 
 FOLDER = "memory"
@@ -52,6 +53,8 @@ class Recollection:
         Of the file; of the names and digests of all memories of the folder, one a line.
     pause_s : float
         Seconds that have passed since.
+    at_home : bool
+        Whether each run begins where the first run of its memory began.
     by_run : mapping of int to Remembered
         What each run begins with.
     """
@@ -59,11 +62,17 @@ class Recollection:
     path: Path
     sha256: str
     pause_s: float
+    at_home: bool
     by_run: Mapping[int, Remembered]
 
     def as_data(self) -> dict[str, Any]:
         """Return what decides the results, for the manifest; the number of runs does not."""
-        return {"name": self.path.resolve().name, "sha256": self.sha256, "pause_s": self.pause_s}
+        return {
+            "name": self.path.resolve().name,
+            "sha256": self.sha256,
+            "pause_s": self.pause_s,
+            "start": HOME if self.at_home else UNKNOWN,
+        }
 
     def of_run(self, run: int) -> Recollection:
         """Return what one run needs of it."""
@@ -98,7 +107,7 @@ class Recollection:
                 raise MemoryFileError(f"{file}: {error}") from None
 
 
-def recollect(path: Path, runs: int, pause_s: float) -> Recollection:
+def recollect(path: Path, runs: int, pause_s: float, *, at_home: bool = False) -> Recollection:
     """Read what the runs of a scenario begin with.
 
     Parameters
@@ -110,11 +119,13 @@ def recollect(path: Path, runs: int, pause_s: float) -> Recollection:
         How many runs there are to be.
     pause_s : float
         Seconds that have passed since.
+    at_home : bool
+        Whether each run begins where the first run of its memory began.
 
     Raises
     ------
     MemoryFileError
-        If there is nothing, or it cannot be read, or a run is missing.
+        If there is nothing, or it cannot be read, or a run is missing, or a home that is needed.
     """
     files = memory_files(path)
     content = {number: read_whole(file) for number, file in files.items()}
@@ -122,12 +133,17 @@ def recollect(path: Path, runs: int, pause_s: float) -> Recollection:
 
     def remembered(number: int) -> Remembered:
         memory = memory_from(files[number], content[number])
+        if at_home and memory.home is None:
+            raise MemoryFileError(
+                f"{files[number]}: remembers no home, which memory_start: {HOME} needs: where a "
+                "first run began that marked a landmark"
+            )
         return Remembered(files[number].name, digests[number], memory.aged(pause_s))
 
     if len(files) == 1:
         (only,) = files
         return Recollection(
-            path, digests[only], pause_s, dict.fromkeys(range(runs), remembered(only))
+            path, digests[only], pause_s, at_home, dict.fromkeys(range(runs), remembered(only))
         )
     missing = next((number for number in range(runs) if number not in files), None)
     if missing is not None:
@@ -139,7 +155,7 @@ def recollect(path: Path, runs: int, pause_s: float) -> Recollection:
     listed = "".join(f"{files[number].name} {digests[number]}\n" for number in sorted(files))
     digest = hashlib.sha256(listed.encode()).hexdigest()
     by_run = {number: remembered(number) for number in range(runs)}
-    return Recollection(path, digest, pause_s, by_run)
+    return Recollection(path, digest, pause_s, at_home, by_run)
 
 
 def memory_files(path: Path) -> dict[int, Path]:

@@ -199,7 +199,10 @@ def resolve(
     with problems.gathered(remembering):
         if scenario.memory_from is not None:
             there = start["memory_from"] / scenario.memory_from
-            recollection = recollect(there, scenario.runs, scenario.memory_pause_s)
+            recollection = recollect(
+                there, scenario.runs, scenario.memory_pause_s,
+                at_home=scenario.at_home,
+            )  # fmt: skip
     place = None
     if scenario.world is not None:
         typed_keys = [tuple(key.split(".")) for key in own]

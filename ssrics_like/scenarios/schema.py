@@ -11,6 +11,7 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 from ssrics_like import library, settings
 from ssrics_like.errors import LibraryError, MapError, MemoryFileError, SettingsError
 from ssrics_like.maps import load_building, load_locations
+from ssrics_like.memory.home import HOME
 from ssrics_like.scenarios.problems import unknown_location
 from ssrics_like.scenarios.remembering import memory_files
 from ssrics_like.scenarios.world_settings import Strict, WorldSettings
@@ -103,6 +104,8 @@ class Scenario(Strict):
         to the scenario file; see `remembering.recollect`.
     memory_pause_s : float
         How many seconds have passed since that memory was saved.
+    memory_start : {"unknown", "home"}
+        Whether the robot begins where the first run of that memory began; else it may be anywhere.
     runs : int
         Number of runs; they differ in their noise.
     seed : int
@@ -132,6 +135,7 @@ class Scenario(Strict):
     memory: str = "act-r"
     memory_from: Annotated[str, Field(min_length=1)] | None = None
     memory_pause_s: Annotated[float, Field(ge=0.0, le=1e12)] = 0.0
+    memory_start: Literal["unknown", "home"] = "unknown"
     runs: Annotated[int, Field(ge=1, le=100_000)] = 1
     seed: Annotated[int, Field(ge=0)] = 2006
     humans: str | None = None
@@ -144,10 +148,21 @@ class Scenario(Strict):
     variants: list[VariantSettings] = Field(default_factory=list)
     set: dict[str, Any] = Field(default_factory=dict)
 
+    @property
+    def at_home(self) -> bool:
+        """Whether the robot begins where the first run of its memory began."""
+        return self.memory_start == HOME
+
     @model_validator(mode="after")
     def _one_source(self) -> Self:
         if (self.source is None) == (self.world is None):
             raise ValueError("a scenario has either source (a log) or world (a building)")
+        return self
+
+    @model_validator(mode="after")
+    def _home_is_remembered(self) -> Self:
+        if self.at_home and self.memory_from is None:
+            raise ValueError(f"memory_start: {HOME} needs memory_from, which knows where that is")
         return self
 
 
