@@ -1,15 +1,18 @@
 """How far path integration goes astray: matching scans against wheels alone, on the same drives.
 
     python benchmarks/bench_egomotion.py [--maps PLAN ...] [--buildings N] [--drift SHARE]
+                                         [--log LOG [LABELS]] ...
 
 The error is that of the pose after 20 m of path, seen from where these began, over all stretches of
 a drive that begin 5 m apart. The time is that of one scan, on one core. Then the robot is set down
-somewhere else on the same drive, 3 m away or more, again and again, while its wheels count on.
+somewhere else on the same drive, 3 m away or more, again and again, while its wheels count on. Logs
+of real robots, with labels that hold their true poses, or without, follow one by one.
 """
 
 from __future__ import annotations
 
 import argparse
+import csv
 import itertools
 import math
 import sys
@@ -25,6 +28,7 @@ from ssrics_like.bench.drives import OnPlan, Simulated, make_drive
 from ssrics_like.perception import Observation
 from ssrics_like.perception.egomotion import Egomotion
 from ssrics_like.poses import Pose
+from ssrics_like.sources import open_log
 
 STRETCH_M, APART_M = 20.0, 5.0
 CARRIED, AWAY_M, SCANS = 20, 3.0, 10  # times a drive; how far; scans before it and after
@@ -62,12 +66,39 @@ def noticed(observations: tuple[Observation, ...], rng: np.random.Generator) -> 
     return found
 
 
+def logged(log: Path, labels: Path | None) -> str:
+    """Tell how far the path integration of a real robot went astray."""
+    observations = list(open_log(log))
+    egomotion = Egomotion()
+    matched = [
+        egomotion.update(o.pose, o.scan.bearings_rad, o.scan.ranges_m) for o in observations
+    ]
+    said = f"{log.name}: carried {egomotion.carried} times in {len(observations)} scans"
+    if labels is None:
+        return said
+    with (labels / "poses.csv").open() as lines:
+        truth = [
+            Pose(float(row["x_m"]), float(row["y_m"]), float(row["theta_rad"]))
+            for row in csv.DictReader(lines)
+        ]
+    for name, poses in (("wheels", [o.pose for o in observations]), ("scans", matched)):
+        metres, degrees = np.percentile(errors(poses, truth), [50, 95], axis=0).T
+        said += (
+            f"; by {name} {metres[0]:.2f} and {metres[1]:.2f} m, "
+            f"{degrees[0]:.1f} and {degrees[1]:.1f} degrees"
+        )
+    return said
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--maps", nargs="*", type=Path, default=[])
     parser.add_argument("--buildings", type=int, default=10)
     parser.add_argument("--drift", type=float, default=0.05)
+    parser.add_argument("--log", nargs="+", type=Path, action="append", default=[])
     options = parser.parse_args()
+    for log in options.log:
+        print(logged(log[0], log[1] if len(log) > 1 else None), flush=True)
     condition = replace(NOMINAL, drift=options.drift)
     specs: list[Simulated | OnPlan] = [
         Simulated(condition, seed, PURPOSE) for seed in range(options.buildings)

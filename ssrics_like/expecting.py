@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
 from ssrics_like.memory import (
     Expected,
     Here,
@@ -10,10 +16,14 @@ from ssrics_like.memory import (
     Retrieval,
     TopologicalMemory,
     Value,
+    View,
     Whereabouts,
 )
 from ssrics_like.perception.reflex import Reflex
+from ssrics_like.poses import Pose
 
+Look: TypeAlias = Callable[[Pose], NDArray[np.float32]]
+"""Tells what surrounds a place, in the frame of path integration; shape (72,)."""
 PLACE_OF = "place-of-"
 UNSETTLED = 0.5  # a robot that is lost is not more confident than this
 
@@ -46,6 +56,26 @@ class Expecting:
         if self._asked_for != asked:  # rules ask, and decide, about the same place
             self._asked_for = asked
             self._expected = self._whereabouts.expect(here_of(reflex), self._landmarks)
+
+    def seen_there(
+        self, reflex: Reflex, view_of: Callable[[str], View | None], look: Look
+    ) -> dict[str, NDArray[np.float32]]:
+        """Look again where landmarks are known to be that were perceived beside it, if at all.
+
+        A doorway that is entered askew is perceived up to a metre beside where it was, and what
+        surrounds that place is not what is remembered. Where the landmark is, it is.
+
+        Returns
+        -------
+        dict of str to ndarray, shape (72,), float32
+            By the names of their views: what surrounds these places now.
+        """
+        self.at(reflex)
+        return {
+            view.name: look(place)
+            for landmark, place in self._whereabouts.astray().items()
+            if (view := view_of(landmark)) is not None
+        }
 
     def only(self, landmark: str) -> None:
         """Expect one landmark: where it is, no other is."""

@@ -121,7 +121,7 @@ class CognitiveModel:
             np.random.default_rng(memory_seed),
             self._decisions.append,
             retrieved,
-            surroundings=perception.view == "surroundings",
+            look=self.perception.view_of if self.perception.looks_round else None,
         )
         self.wayfinder = Wayfinder(
             self._modules,

@@ -17,7 +17,7 @@ import numpy as np
 
 from ssrics_like.decision import Decision
 from ssrics_like.errors import EngineError
-from ssrics_like.expecting import PLACE_OF, Expecting, here_of
+from ssrics_like.expecting import PLACE_OF, Expecting, Look, here_of
 from ssrics_like.memory import (
     Chunk,
     DeclarativeMemory,
@@ -60,8 +60,9 @@ class LandmarkModules:
         Receives every Decision.
     retrieved : callable
         Receives every Retrieval with its time, for the trace.
-    surroundings : bool
-        Whether views are of what surrounds a place, and not of a scan.
+    look : callable, optional
+        Tells what surrounds a place, in the frame of path integration. Views are of what
+        surrounds a place, then; of a scan without it.
     """
 
     def __init__(
@@ -71,14 +72,15 @@ class LandmarkModules:
         decided: Callable[[Decision], None],
         retrieved: Callable[[float, Retrieval], None],
         *,
-        surroundings: bool = False,
+        look: Look | None = None,
     ) -> None:
         self.profile = profile
+        self._look = look
         self.declarative = DeclarativeMemory(
             profile,
             rng,
             {
-                **profile.similarities(surroundings=surroundings),
+                **profile.similarities(surroundings=look is not None),
                 "place": ListedSimilarity(self._likeness_of_places),
             },
         )
@@ -170,7 +172,11 @@ class LandmarkModules:
             The rule asks for a view or place by a word that is no handle.
         """
         slots = tuple((t.slot, self._asked(t.slot, t.value), t.negated) for t in tests)
-        found = self.declarative.retrieve(Request(chunk_type, slots), t_s, sources)
+        looked = tuple(
+            (slot, self._looked_at(test.value, value), no)
+            for test, (slot, value, no) in zip(tests, slots, strict=True)
+        )
+        found = self.declarative.retrieve(Request(chunk_type, looked), t_s, sources)
         confidence = self._expecting.confidence(found)
         self._recalled = found, confidence
         self._retrieved(t_s, found)
@@ -332,6 +338,14 @@ class LandmarkModules:
             return View(word, reflex.view)
         self._expecting.at(reflex)
         return word
+
+    def _looked_at(self, word: str, value: Value) -> Value:
+        """Add to a reflex' view what is seen where landmarks are that it may be, astray."""
+        reflex = self._waiting.get(word.removeprefix("view-"))
+        if self._look is None or reflex is None or not reflex.directed:
+            return value
+        there = self._expecting.seen_there(reflex, self.view_of, self._look)
+        return View(word, reflex.view, there)
 
     def _kept(self, slot: str, word: str, name: str) -> Value:
         """Return what a chunk of some name keeps in a slot."""

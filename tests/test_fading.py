@@ -29,11 +29,11 @@ STRANGE_M = 5.9
 class Mind:
     """Memories and rules that meet the doorways that a test says."""
 
-    def __init__(self):
+    def __init__(self, look=lambda _: np.zeros(72, np.float32)):
         self.decisions, self.retrievals = [], []
         self.modules = LandmarkModules(
             PROFILE, np.random.default_rng(0), self.decisions.append,
-            lambda _, retrieval: self.retrievals.append(retrieval), surroundings=True,
+            lambda _, retrieval: self.retrievals.append(retrieval), look=look,
         )  # fmt: skip
         self.engine = Engine(
             load_rulebook(find("productions", "landmark")), self.modules, self.modules
@@ -44,7 +44,7 @@ class Mind:
         """Meet a doorway; return what was decided about it."""
         x_m, y_m = PLACES[landmark]
         here = Pose(x_m + astray_m, y_m, 0.0)
-        view = np.repeat([length_m or LENGTHS_M[landmark], 0.0], 36).astype(np.float32)
+        view = self.view(length_m or LENGTHS_M[landmark])
         reflex = Reflex(
             event=self.events, scan=self.events, t_s=t_s, pose=here, true_pose=None,
             perceived_s=t_s, travelled_m=20.0 * self.events, modality="laser", novelty=0.9,
@@ -56,6 +56,10 @@ class Mind:
         self.engine.settle()
         made = self.decisions[-1]
         return made.decision, made.landmark
+
+    @staticmethod
+    def view(length_m):
+        return np.repeat([length_m, 0.0], 36).astype(np.float32)
 
     def strangely(self, landmark, t_s):
         """Meet a doorway that looks another, 2.45 standard deviations astray."""
@@ -147,3 +151,15 @@ def test_who_goes_through_a_landmark_and_does_not_see_it_trusts_it_less(monkeypa
     mind.meet("L2", 160.0)
     node = mind.modules.topological["L2"]
     assert (node.missed, node.missed_since) == (1, 0)
+
+
+@pytest.mark.parametrize("length_m", [LENGTHS_M["L2"], STRANGE_M])
+def test_a_doorway_perceived_beside_where_it_was_is_known_by_what_surrounds_that_place(length_m):
+    looked = []
+    made = Mind(lambda place: looked.append(place) or Mind.view(length_m))
+    for i, name in enumerate(["L1", "L2", "L1", "L2"]):
+        assert made.meet(name, 20.0 * i)[1] == name
+    assert not looked  # they were where they had been
+    known = made.meet("L2", 100.0, 0.7, STRANGE_M)
+    assert {(round(place.x_m, 2), round(place.y_m, 2)) for place in looked} == {(20.0, 0.0)}
+    assert (known == ("recognised", "L2")) == (length_m == LENGTHS_M["L2"])

@@ -117,3 +117,24 @@ def test_a_memory_recalls_the_place_with_these_surroundings():
     asked = View("asked", view(np.roll(drawn(3), 18)))
     found = memory.retrieve(Request("landmark", (("view", asked, False),)), 10.0)
     assert found.chunk.name == "L3"
+
+
+def test_what_is_seen_where_a_view_was_taken_counts_for_that_view_if_it_agrees_more():
+    column = SurroundingsSimilarity(-4.0).column("view", SimilarityScale(0.0, -8.0))
+    column.append(View("one", view(drawn(1))))
+    column.append(None)
+    column.append(View("two", view(drawn(2))))
+    column.replace(0, View("other", view(drawn(3))))
+    plain = column.similarity(View("now", view(drawn(2))))
+    there = {
+        "one": view(drawn(3)),
+        "other": view(drawn(3)),
+        "two": view(drawn(5)),
+        "new": view(drawn(2)),
+    }
+    seen = column.similarity(View("now", view(drawn(2)), there))
+    assert plain[2] == seen[2] == 0.0
+    assert plain[0] < -3.0
+    assert seen[0] == 0.0
+    unknown = column.similarity(View("now", view(drawn(2)), {"other": view(drawn(3), 9.0)}))
+    np.testing.assert_array_equal(unknown, plain)

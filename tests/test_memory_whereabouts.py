@@ -283,3 +283,23 @@ def test_a_robot_that_is_not_where_it_was_said_to_begin_finds_out():
         looks = {name: 0.0 if name == f"L{i + 4}" else -math.log(100.0) for name in names}
         whereabouts.doubt(place, looks, -math.log(100.0))
     assert whereabouts.hypotheses[0].landmark == "L7"
+
+
+@pytest.mark.parametrize(("off_m", "astray"), [(0.2, []), (0.4, ["L3"]), (0.9, ["L3"]), (1.1, [])])
+def test_what_is_perceived_beside_a_landmark_may_be_that_landmark(off_m, astray):
+    whereabouts, names = corridor(doors=4)
+    whereabouts.expect(here(8.0, off_m, 0.0, 16.0), names)
+    places = whereabouts.astray()
+    assert list(places) == astray
+    for place in places.values():
+        assert (place.x_m, place.y_m) == pytest.approx((8.0, 0.0))
+    whereabouts.lose()
+    whereabouts.expect(here(8.0, off_m, 0.0, 16.0), names)
+    assert whereabouts.astray() == {}
+
+
+def test_where_a_landmark_lies_must_be_known_well_for_something_to_be_beside_it():
+    whereabouts, names = corridor(DRIFTING)
+    for travelled_m, astray in ((16.0, ["L3"]), (400.0, [])):
+        whereabouts.expect(here(8.0, 0.6, 0.0, travelled_m), names)
+        assert list(whereabouts.astray()) == astray

@@ -116,6 +116,22 @@ def test_a_robot_that_is_carried_notices_and_one_that_drives_does_not():
     assert egomotion.pose.distance_m(pose) < 0.5
 
 
+def test_a_robot_whose_wheels_slip_while_it_turns_was_not_carried():
+    seen = driven_round()
+    slips = [0.25 if n in (60, 90) else -0.25 if n == 120 else 0.0 for n in range(1, len(seen))]
+    odometry = [seen[0].true_pose]
+    for (one, other), slip in zip(itertools.pairwise(seen), slips, strict=True):
+        step = other.true_pose.seen_from(one.true_pose)
+        odometry.append(odometry[-1].onward(Pose(step.x_m, step.y_m, step.theta_rad + slip)))
+    egomotion = Egomotion()
+    for o, pose in zip(seen, odometry, strict=True):
+        egomotion.update(pose, o.scan.bearings_rad, o.scan.ranges_m)
+    assert egomotion.carried == 0
+    last = seen[-1].true_pose
+    assert egomotion.pose.distance_m(last) < 0.15
+    assert abs(math.remainder(egomotion.pose.theta_rad - last.theta_rad, math.tau)) < 0.05
+
+
 def test_the_frame_begins_as_that_of_odometry():
     grid = two_rooms(1.0)
     seen = drive(grid, (1.0, 1.5, 0.0), line((1.0, 1.5), (2.0, 1.5)), exact_laser())

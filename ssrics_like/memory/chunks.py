@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, TypeAlias
 
@@ -25,10 +25,14 @@ class View:
     descriptor : ndarray, shape (n,), float32
         For example a conditioned scan, metres. Two views of one memory have equal
         length, at least 2, and are finite.
+    there : mapping of str to ndarray
+        Of a view that is asked for: what is seen now where other views were taken, by the names of
+        those. It is no part of what a place looked like.
     """
 
     name: str
     descriptor: NDArray[np.float32]
+    there: Mapping[str, NDArray[np.float32]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         descriptor = np.array(self.descriptor, dtype=np.float32)

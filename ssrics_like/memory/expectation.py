@@ -74,6 +74,10 @@ class Case(NamedTuple):
         Minus the logarithm of how probable it is to perceive it here.
     before : Hypothesis
         The hypothesis.
+    expected : Pose
+        Where it lies, as expected before.
+    known_m2 : float
+        Variance of each coordinate of that, and of where the robot is.
     fix : Link
         The landmark's frame in that of path integration, now that it was perceived here.
     link : Link or None
@@ -83,6 +87,8 @@ class Case(NamedTuple):
     landmark: str
     nats: float
     before: Hypothesis
+    expected: Pose
+    known_m2: float
     fix: Link
     link: Link | None
 
@@ -168,7 +174,7 @@ def cases_near(
             max(hypothesis.fix.variance_m2 + drift.variance_m2, fix.variance_m2),
             min(hypothesis.fix.variance_rad2 + drift.variance_rad2, fix.variance_rad2),
         ).bounded
-        yield Case(name, nats, hypothesis, fix, measured)
+        yield Case(name, nats, hypothesis, expected.pose, known_m2, fix, measured)
 
 
 def _nats_of_place(off_m2: float, known_m2: float, place_m2: float) -> float:
@@ -195,4 +201,5 @@ def cases_anywhere(
     variance_rad2 = sd.direction_rad**2 if here.directed else UNDIRECTED_RAD2
     for side in sides:
         turned = Pose(place.x_m, place.y_m, math.remainder(place.theta_rad + side, math.tau))
-        yield Case(landmark, nats, hypothesis, Link(turned, sd.place_m**2, variance_rad2), None)
+        fix = Link(turned, sd.place_m**2, variance_rad2)
+        yield Case(landmark, nats, hypothesis, turned, fix.variance_m2, fix, None)

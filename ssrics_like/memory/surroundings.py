@@ -60,15 +60,20 @@ class SurroundingsColumn(ViewColumn):
     def __init__(self, slot: str, scale: SimilarityScale) -> None:
         super().__init__(slot, scale)
         self._turned: _Places | None = None
+        self._row_of: dict[str, int] = {}
 
     def append(self, value: Value | None) -> None:
         """Add the view of the next chunk; None if it lacks the slot."""
+        if isinstance(value, View):
+            self._row_of[value.name] = len(self._views)
         super().append(value)
         self._turned = None
 
     def replace(self, row: int, value: Value) -> None:
         """Store another view for a chunk that has one."""
         super().replace(row, value)
+        if isinstance(value, View):
+            self._row_of[value.name] = row
         self._turned = None
 
     def _row(self, view: View) -> NDArray[np.float32]:
@@ -78,7 +83,8 @@ class SurroundingsColumn(ViewColumn):
         """``different + (equal - different) * u`` for each place, shape (n,).
 
         u is 0 where half of the directions agree or fewer, 1 where 80 % do or more, and 0.5 where
-        too few can be compared.
+        too few can be compared. Where something is seen now where a view was taken, that counts if
+        it agrees more: the place is perceived astray then.
         """
         self.check(requested)
         assert isinstance(requested, View)
@@ -87,6 +93,10 @@ class SurroundingsColumn(ViewColumn):
         if self._turned is None:
             self._turned = _by_direction(self._rows.used)
         agreeing = _agreement(requested.descriptor, self._turned)
+        for name, seen in requested.there.items():
+            if (row := self._row_of.get(name)) is not None:
+                again = agreement(seen, self._rows.used[row : row + 1])[0]
+                agreeing[row] = np.fmax(agreeing[row], again)
         u = np.clip((agreeing - STRANGE) / (KNOWN - STRANGE), 0.0, 1.0)
         u[np.isnan(agreeing)] = NEITHER
         return np.asarray(self._scale.different + (self._scale.equal - self._scale.different) * u)

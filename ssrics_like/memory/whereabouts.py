@@ -34,7 +34,11 @@ PROOF = 6.0
 ENOUGH = 3
 """The robot relies on where it believes to be when so many landmarks have fitted."""
 SAME_PLACE_M = 1.0
-"""What is perceived so near to the place marked last is the same place."""
+"""What is perceived so near to the place marked last is the same place, and may be a landmark that
+is known to lie so near: doorways are about as wide."""
+BESIDE_M = 0.3
+"""What is perceived farther from where a landmark is known to lie, if anything, is that landmark
+astray; and so well that place must be known (standard deviation)."""
 GIVEN_UP = 6
 """After so many landmarks in a row that it was unsure of, a robot that is lost takes the next one
 that it does not know for new: it is somewhere that it has never been."""
@@ -195,6 +199,26 @@ class Whereabouts:
                 odds[case.landmark] = odds.get(case.landmark, 0.0) + p
         nats = {name: _nats(p + anywhere) for name, p in odds.items()}
         return Expected(nats, _nats(anywhere))
+
+    def astray(self) -> dict[str, Pose]:
+        """Tell which landmarks this may be if it is perceived astray, and where they lie.
+
+        Returns
+        -------
+        dict of str to Pose
+            In the frame of path integration; `expect` must have been called. None while the robot
+            is lost, or does not know well enough where they are.
+        """
+        likeliest = self._from[0] if self._from else ANYWHERE
+        if likeliest.landmark is None or likeliest.met < ENOUGH:
+            return {}
+        return {
+            case.landmark: case.expected
+            for case in self._near
+            if case.before is likeliest
+            and case.known_m2 < BESIDE_M**2
+            and BESIDE_M < case.expected.distance_m(self._here.place) < SAME_PLACE_M
+        }
 
     def recognise(
         self, landmark: str, here: Here, evidence: Mapping[str, float], new: float

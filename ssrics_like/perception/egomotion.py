@@ -43,6 +43,9 @@ ELSEWHERE = 0.6
 """Where fewer of the readings lie about where those of the scan just before do, the robot was
 carried. `benchmarks/bench_egomotion.py` says how often that is noticed, and how often without
 reason."""
+SLIPS_RAD = tuple(np.linspace(-0.3, 0.3, 13).tolist())
+SLIPPED = 0.8
+"""Unless that share does if it has turned by so much more than its wheels say: they slip."""
 ONWARD_M, ONWARD_RAD = 0.5, 0.5
 """Scans farther apart than this cannot be compared so."""
 STILL_M, STILL_RAD = 1e-4, 1e-4
@@ -108,8 +111,11 @@ class Egomotion:
         if way_m < STILL_M and turn_rad < STILL_RAD:
             return self.pose
         points = _points(bearings_rad, readings_m)
-        near_by = way_m < ONWARD_M and turn_rad < ONWARD_RAD
-        elsewhere = near_by and self._is_elsewhere(bearings_rad, points, step)
+        elsewhere = False
+        if way_m < ONWARD_M and turn_rad < ONWARD_RAD:
+            seen = self._seen_step(bearings_rad, points, step)
+            elsewhere = seen is None
+            step = seen or step
         if elsewhere:
             self.carried += 1
             self._cells[:] = 0
@@ -119,17 +125,28 @@ class Egomotion:
             self._add(bearings_rad, readings_m)
         return self.pose
 
-    def _is_elsewhere(
+    def _seen_step(
         self, bearings_rad: NDArray[np.float64], points: NDArray[np.float64], step: Pose
-    ) -> bool:
-        """Tell whether this scan cannot have been taken a step from the one before."""
+    ) -> Pose | None:
+        """Return the step, turned as the scans have it if they disagree; None if none fits."""
         first_rad, last_rad = float(bearings_rad[0]), float(bearings_rad[-1])
         step_rad = (last_rad - first_rad) / max(len(bearings_rad) - 1, 1) or 1.0
-        agree, compared = kernels.agreeing(
-            self._last, 0.5 * (first_rad + last_rad), step_rad, points,
-            (step.x_m, step.y_m, step.theta_rad),
-        )  # fmt: skip
-        return bool(compared >= FEW and agree < ELSEWHERE * compared)
+
+        def agreement(turn_rad: float) -> tuple[float, int]:
+            agree, compared = kernels.agreeing(
+                self._last, 0.5 * (first_rad + last_rad), step_rad, points,
+                (step.x_m, step.y_m, step.theta_rad + turn_rad),
+            )  # fmt: skip
+            return (agree / compared if compared else 0.0), int(compared)
+
+        share, compared = agreement(0.0)
+        if compared < FEW or share >= SLIPPED:
+            return step
+        shares = [share if n >= FEW else 0.0 for share, n in map(agreement, SLIPS_RAD)]
+        best = int(np.argmax(shares))
+        if shares[best] < SLIPPED:
+            return step if share >= ELSEWHERE else None
+        return Pose(step.x_m, step.y_m, step.theta_rad + SLIPS_RAD[best])
 
     def _add(self, bearings_rad: NDArray[np.float64], ranges_m: NDArray[np.float64]) -> None:
         """Add what a scan shows to what was seen lately."""
