@@ -48,6 +48,7 @@ pictures: run
 	$(BIN)/ssrics compare out/human-like out/report out/people.csv --out out/compared
 	chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1200,1180 \
 	  --screenshot=docs/images/people.png "file://$(CURDIR)/out/compared/comparison.html"
+	cp out/compared/figures/ceiling.svg docs/images/people-ceiling.svg
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("ssrics-like needs Python 3.11 or newer, this is " + sys.version.split()[0] if sys.version_info < (3, 11) else 0)'

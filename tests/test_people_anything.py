@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from ssrics_like.comparison.way import Way
 from ssrics_like.people import Marker, Settings, compare_people
-from ssrics_like.people.definitions import DEFINITIONS
+from ssrics_like.people.definitions import file_definitions
 from ssrics_like.people.figures import Model
 from ssrics_like.people.files import (
     agreement_rows,
@@ -52,7 +52,7 @@ def way(length_m):
 
 
 @given(
-    st.lists(MARKS, min_size=1, max_size=5),
+    st.lists(MARKS, min_size=1, max_size=7),
     st.lists(
         st.lists(st.tuples(MARKS, st.sampled_from([0.0, 0.05, 4.0, 10.0])), min_size=1, max_size=3),
         min_size=1,
@@ -97,7 +97,7 @@ def test_any_marks_can_be_compared(people, models, places, radius_m, bin_m):
     assert len(location_rows(made)) == len(locations) * (1 + len(models))
     assert len(people_rows(made)) == len(people) * (1 + len(models))
     assert len(made.pairs) == 3 * math.comb(len(models), 2)
-    defined = set().union(*(key.split(", ") for key in DEFINITIONS))
+    defined = set().union(*(key.split(", ") for key in file_definitions()))
     assert set().union(*made.figures.values()) <= defined
     assert json_text(comparison_data(made, {}))
     for table in (location_table, figure_table, pair_table, people_table):

@@ -11,8 +11,9 @@ from hypothesis.extra import numpy as hnp
 from ssrics_like.comparison.way import Way
 from ssrics_like.people import Marker
 from ssrics_like.people.ceiling import model_against_others, people_against_others
-from ssrics_like.people.figures import Crowd, Model
-from ssrics_like.people.model_figures import chance_figures, model_figures
+from ssrics_like.people.chance_figures import chance_figures
+from ssrics_like.people.figures import Crowd, DrawnRuns, Model
+from ssrics_like.people.model_figures import model_figures
 from ssrics_like.people.raters import kappas
 from ssrics_like.people.resampling import drawn
 from ssrics_like.people.route import route_of
@@ -42,7 +43,7 @@ def crowd_of(people, draws=50, seed=1):
 @settings(max_examples=60, deadline=None)
 def test_people_and_runs_meet_the_same_others_as_in_a_plain_loop(people, runs):
     crowd = crowd_of(people)
-    weights = np.ones((len(crowd.weights), len(runs)))
+    drawn_runs = DrawnRuns(runs, np.ones((len(crowd.weights), len(runs))))
     mine, theirs, above = [], [], []
     for person in range(len(people)):
         others = others_of(people, person)
@@ -53,7 +54,7 @@ def test_people_and_runs_meet_the_same_others_as_in_a_plain_loop(people, runs):
         mine.append(level)
         theirs.append(own)
         above.append(level > own)
-    found = model_against_others(runs, crowd, weights)
+    found = model_against_others(drawn_runs, crowd)
     ceiling = people_against_others(crowd)["f_others"].value
     if not mine:
         assert math.isnan(ceiling)
@@ -71,7 +72,7 @@ def test_a_person_in_the_place_of_a_model_is_as_near_as_people():
     people = np.random.default_rng(2).random((8, 40)) < 0.3
     people[:, :10] = True
     crowd = crowd_of(people, 400)
-    found = model_against_others(people, crowd, drawn(np.random.default_rng(3), 400, 8))
+    found = model_against_others(DrawnRuns(people, drawn(np.random.default_rng(3), 400, 8)), crowd)
     low, high = found["f_ceiling"].interval
     assert low < 0 < high
 
@@ -80,9 +81,11 @@ def test_the_consensus_itself_exceeds_everybody_who_errs():
     base = np.arange(30) < 6
     people = np.array([base ^ (np.arange(30) == 5 + k) for k in range(7)])
     crowd = crowd_of(people, 400)
-    found = model_against_others(base[np.newaxis], crowd, np.ones((400, 1)))
+    found = model_against_others(DrawnRuns(base[np.newaxis], np.ones((400, 1))), crowd)
     assert found["f_others"].value == 1.0
     assert found["f_exceeds"].value == 1.0
+    # Seven of seven: Wilson (1927).
+    assert found["f_exceeds"].interval == pytest.approx((7 / (7 + 1.959964**2), 1.0))
     assert found["f_others"].interval[1] == 1.0
     assert found["f_ceiling"].interval[0] > 0
 
@@ -103,7 +106,9 @@ def test_figures_of_a_model_by_hand():
     people = np.array([[1, 1, 0, 0, 0, 0], [1, 1, 0, 0, 0, 0], [1, 0, 1, 0, 0, 0]], bool)
     runs = np.array([[1, 1, 1, 1, 0, 0], [1, 0, 0, 0, 0, 0]], bool)
     crowd = crowd_of(people)
-    found = model_figures(runs, crowd, np.ones((50, 2)), kappas(np.vstack([people, runs])))
+    found = model_figures(
+        DrawnRuns(runs, np.ones((50, 2))), crowd, kappas(np.vstack([people, runs]))
+    )
     # The consensus is the first two units.
     assert found["precision"].value == pytest.approx((2 / 4 + 1) / 2)
     assert found["recall"].value == pytest.approx((1 + 1 / 2) / 2)
@@ -123,7 +128,9 @@ def test_what_marks_at_random_reach_is_a_closed_form():
     mark = Marker("run 0", "m", np.array([[4.0, 0.0]]), np.array([math.nan]), ("",))
     runs = tuple(mark for _ in range(30))
     model = Model("m", runs, (way,) * 30)
-    found = chance_figures(model, units, crowd_of(people), 0.4, np.random.default_rng(1))
+    # Each run marked the bin in the middle of the four, and so has an F of 2 / (1 + 4).
+    drawn_runs = DrawnRuns(units.marked(runs), np.ones((50, 30)))
+    found = chance_figures(model, units, drawn_runs, crowd_of(people), np.random.default_rng(1))
     # One mark hits with probability 4/9, and then F = 2 / (1 + 4).
     expected = 4 / 9 * 2 / 5
     assert found["f_chance"].value == pytest.approx(expected, abs=0.01)
@@ -137,6 +144,12 @@ def test_a_run_without_a_path_has_no_chance():
     )
     units = Units((), route_of([], 1.0, 1.0))
     crowd = crowd_of(np.zeros((2, 0), bool))
-    found = chance_figures(nowhere, units, crowd, math.nan, np.random.default_rng(1))
+    found = chance_figures(
+        nowhere,
+        units,
+        DrawnRuns(np.zeros((1, 0), bool), np.ones((50, 1))),
+        crowd,
+        np.random.default_rng(1),
+    )
     assert math.isnan(found["f_chance"].value)
     assert math.isnan(found["f_corrected"].value)

@@ -18,7 +18,11 @@ FILES = [
     "agreement.csv", "comparison.html", "comparison.json", "figures", "locations.csv", "marks.csv",
     "models.csv", "pairs.csv", "people.csv",
 ]  # fmt: skip
-PICTURES = ["agreement", "locations", "map", "novelty"]
+PEOPLES = (
+    "{text}: expected a folder of labels, a map's file ending in .yaml, or people's choices, a table "
+    "that ends in .csv and is given last"
+)
+PICTURES = ["agreement", "ceiling", "locations", "map", "novelty"]
 
 
 @pytest.fixture(scope="module")
@@ -169,7 +173,7 @@ def test_the_page_stands_alone_and_can_be_read_aloud(out):
     assert levels[0] == "h1"
     assert levels.count("h1") == 1
     pictures = [attributes for tag, attributes in page.tags if tag == "svg"]
-    assert len(pictures) == 4
+    assert len(pictures) == len(PICTURES)
     assert all(a["role"] == "img" and len(a["aria-label"]) > 20 for a in pictures)
     for tag, attributes in page.tags:
         for name in ("src", "href"):
@@ -212,14 +216,19 @@ def test_kappa_of_all_markers_is_of_the_units_marked(world, other, choices):
         (["{world}", "{world}", "{choices}"], "{world}: is named twice; expected every folder once"),
         (["{world}", "{elsewhere}", "{choices}"], "{elsewhere}/map/map.yaml: is another map than"),
         (["{world}", "{off}"], "{off}: 2 of 2 marks lie outside the map 'Rooms round a block', exp"),
-        (["{world}", "{choices}", "--locations", "clusters"], "--locations: 'clusters': expected a "),
-        (["{world}", "{choices}", "--locations", "{tmp}/m.yaml"], "{tmp}/m.yaml: no such file"),
+        (["{world}", "{choices}", "--locations", "clusters"], "--locations: no map 'clusters'"),
+        (["{world}", "{choices}", "--locations", "{tmp}/m.yaml"], "--locations: {tmp}/m.yaml: no su"),
+        (["{world}", "{choices}", "--locations", "{tmp}"], "--locations: {tmp}: expected a results "),
         (["{world}", "{choices}", "--radius", "1", "--radius", "2"], "--radius: given 2 times; exp"),
         (["{world}", "{choices}", "--radius", "0"], "--radius: '0': expected metres, more than 0"),
-        (["{world}", "{choices}", "--bin", "wide"], "--bin: 'wide': expected metres, more than 0"),
+        (["{world}", "{choices}", "--bin", "wide"], "--bin: 'wide': expected metres, 0.1 or more"),
         (["{world}", "{choices}", "--seed", "-1"], "--seed: -1: expected 0 or more"),
         (["{world}", "--bin", "1"], "--bin: goes with people's choices only; expected a .csv file"),
-        (["{world}", "{choices}", "-o", "{choices}"], "{choices}: cannot be written"),
+        (["{world}", "{choices}", "-o", "{choices}"], "{choices}: is a file, expected a folder"),
+        (["{world}", "{text}"], PEOPLES),
+        (["{choices}", "{world}"], "{choices}: people's choices are given last, after the folders"),
+        (["{world}", "--participants", "none"], "--participants: goes with people's choices only"),
+        (["{world}", "{choices}", "--participants", "{tmp}/no"], "{tmp}/no: no such file"),
     ],
 )  # fmt: skip
 def test_each_wrong_input_gets_one_line(capsys, world, choices, tmp_path, arguments, said):
@@ -227,6 +236,8 @@ def test_each_wrong_input_gets_one_line(capsys, world, choices, tmp_path, argume
     names["wrong"] = tmp_path / "wrong.csv"
     names["wrong"].write_text("participant,landmark,x_m,y_m\na,1,x,2\n")
     names["off"] = write_choices(tmp_path / "off.csv", {"a": [(500, 500)], "b": [(600, 500)]})
+    names["text"] = tmp_path / "choices.txt"
+    names["text"].write_text(choices.read_text())
     names["log"] = names["elsewhere"] = tmp_path / "log"
     if "{log}" in arguments:
         build(names["log"], poses=20)

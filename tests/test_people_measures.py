@@ -137,6 +137,16 @@ def test_a_marker_drawn_twice_makes_no_pair_with_itself():
     assert np.isnan(weighted_fleiss(marked, weights)[0]).tolist() == [False, True]
 
 
+def test_a_marker_drawn_many_times_is_that_marker_once():
+    # Of two markers, one of them drawn four times, there are pairs of these two only.
+    marked = table("1100000000", "0000000000", "1111100000")
+    once = weighted_fleiss(marked, np.array([[1.0, 1.0, 0.0]]))[0]
+    assert weighted_fleiss(marked, np.array([[1.0, 4.0, 0.0]]))[0] == pytest.approx(once)
+    assert weighted_fleiss(marked, np.array([[7.0, 2.0, 0.0]]))[0] == pytest.approx(once)
+    # p_o = .8, the mean share of marked units .1: 1 - .2 / .18
+    assert once == pytest.approx(1 - 0.2 / 0.18)
+
+
 def test_one_marker_agrees_with_nobody():
     alone = table("1100")
     assert math.isnan(fleiss(alone))

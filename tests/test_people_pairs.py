@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from ssrics_like.people.figures import Crowd, DrawnRuns
 from ssrics_like.people.pairs import compared_pairs
 from ssrics_like.people.resampling import drawn
 
@@ -12,10 +13,11 @@ PEOPLE, UNITS = 6, 30
 
 
 def pairs_of(marked, people, locations=10, draws=400):
-    weights = drawn(np.random.default_rng(1), draws, len(people))
-    runs = {name: np.ones((draws, len(table))) for name, table in marked.items()}
-    consensus = people.mean(axis=0)[:locations] >= 0.5
-    return compared_pairs(marked, people, weights, runs, consensus, np.random.default_rng(2))
+    crowd = Crowd.of(people, drawn(np.random.default_rng(1), draws, len(people)))
+    runs = {
+        name: DrawnRuns(table, np.ones((draws, len(table)))) for name, table in marked.items()
+    }  # fmt: skip
+    return compared_pairs(runs, crowd, locations, np.random.default_rng(2))
 
 
 @pytest.fixture

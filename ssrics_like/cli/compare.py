@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ssrics_like.cli.compare_people import compare_with_people, is_choices
+from ssrics_like.cli.compare_people import check_choices, compare_with_people, is_choices
 from ssrics_like.cli.options import Bin, Out, Radii, Whole, metres_of
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def compare(
     locations: str | None = None,
     bin_m: Bin = None,
     seed: Whole | None = None,
+    participants: str | None = None,
     out: Out = None,
 ) -> None:
     """Compare the marks of results folders with labelled places, or with people's choices.
@@ -47,12 +48,17 @@ def compare(
         How near a mark has to lie, metres; may be given again. 0.5, 1, 1.5 and 2 if left out; with
         people's choices one only, 1 if left out.
     locations
-        With people's choices: a map's YAML file that labels the locations, or cluster to find them
-        from people's marks. The locations of the runs' map if left out.
+        With people's choices: what labels the locations, which is an entry of scenarios/maps, a
+        map's YAML file or a results folder; or cluster to find them from people's marks. The
+        locations of the runs' map if left out.
     bin_m
         With people's choices: length of the bins that the route is cut in, metres; 1 if left out.
     seed
         With people's choices: of the draws that intervals are made of; 1 if left out.
+    participants
+        With people's choices: a CSV file of who took part (participant,finished), so that whoever
+        marked nothing is counted; or none. The participants.csv beside the choices, as study export
+        writes it, if left out.
     out
         Folder for comparison.csv, .json and .svg, and for tables of what became of each mark,
         place and passage; with people's choices for comparison.html, tables and figures.
@@ -65,13 +71,18 @@ def compare(
 
     if not folders:
         raise ResultsError("compare: name a results folder, and what was labelled after it")
+    check_choices(folders)
     if is_choices(folders[-1]):
         compare_with_people(
             folders[:-1], folders[-1],
-            radius=radius, locations=locations, bin_m=bin_m, seed=seed, out=out,
+            radius=radius, locations=locations, bin_m=bin_m, seed=seed, participants=participants,
+            out=out,
         )  # fmt: skip
         return
-    for name, value in (("--locations", locations), ("--bin", bin_m), ("--seed", seed)):
+    for name, value in (
+        ("--locations", locations), ("--bin", bin_m), ("--seed", seed),
+        ("--participants", participants),
+    ):  # fmt: skip
         if value is not None:
             raise SettingsError(
                 f"{name}: goes with people's choices only; expected a .csv file after the folders"

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssrics_like.people.figures import Crowd, Figure, Model
+from ssrics_like.people.chance_figures import chance_figures
+from ssrics_like.people.figures import Crowd, DrawnRuns, Figure, Model
 from ssrics_like.people.markers import PEOPLE, Marker
-from ssrics_like.people.model_figures import chance_figures, model_figures
+from ssrics_like.people.model_figures import model_figures
 from ssrics_like.people.notes import notes_of
 from ssrics_like.people.pairs import Pair, compared_pairs
 from ssrics_like.people.people_figures import people_figures
@@ -84,6 +85,7 @@ def compare_people(
     settings: Settings,
     *,
     clustered: bool = False,
+    notes: Sequence[str] = (),
 ) -> Beside:
     """Compare what people marked with what the runs of models marked.
 
@@ -99,6 +101,8 @@ def compare_people(
         Radius, length of a bin, seed, number of draws.
     clustered : bool
         Whether the locations were found from people's marks.
+    notes : sequence of str
+        What there is to say of how people and models were read; stands before the other notes.
 
     Raises
     ------
@@ -120,24 +124,22 @@ def compare_people(
     count = len(people)
     figures = {PEOPLE: people_figures(crowd, kappa[:count, :count])}
     chance = np.random.default_rng([settings.seed, CHANCE_STREAM])
-    first = count
+    first, drawn_runs = count, {}
     for model in models:
         among = [*range(count), *range(first, first + len(model.runs))]
-        found = model_figures(
-            marked[model.name], crowd, weights[model.name], kappa[np.ix_(among, among)]
-        )
-        found |= chance_figures(model, units, crowd, found["f"].value, chance)
-        figures[model.name] = found
+        runs = DrawnRuns(marked[model.name], weights[model.name])
+        figures[model.name] = model_figures(runs, crowd, kappa[np.ix_(among, among)])
+        figures[model.name] |= chance_figures(model, units, runs, crowd, chance)
+        drawn_runs[model.name] = runs
         first += len(model.runs)
-    runs = {model.name: marked[model.name] for model in models}
     pairs = compared_pairs(
-        runs, crowd.marked, crowd.weights, weights, crowd.consensus[: len(units.location_of)],
+        drawn_runs, crowd, len(units.location_of),
         np.random.default_rng([settings.seed, PAIRS_STREAM]),
     )  # fmt: skip
     return Beside(
         tuple(people), tuple(models), units, clustered, settings, marked, crowd,
         _shares(people, models, units), kappa, figures, pairs,
-        notes_of(people, models, units, crowd, marked, clustered=clustered),
+        (*notes, *notes_of(people, models, units, crowd, marked, clustered=clustered)),
     )  # fmt: skip
 
 

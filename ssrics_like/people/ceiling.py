@@ -1,7 +1,8 @@
 """The human ceiling: each person, or a model in their place, against the consensus of the others.
 
 People and runs are drawn anew, and in each draw the others form their consensus anew, so that the
-intervals hold how uncertain it is, too.
+intervals hold how uncertain it is, too. A person and a model are held against the same others, as
+many for the one as for the other.
 """
 
 from __future__ import annotations
@@ -11,20 +12,21 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ssrics_like.comparison.proportions import share, wilson
 from ssrics_like.people.consensus import consensus_of
-from ssrics_like.people.figures import Crowd, Figure
+from ssrics_like.people.figures import Crowd, DrawnRuns, Figure
 from ssrics_like.people.hits import MEASURES, hits
 from ssrics_like.people.resampling import (
-    Weights,
     centred_interval,
     known_mean,
     mean,
-    mean_interval,
     weighted_means,
 )
 
 HELD = ("f", "kappa")
 """The measures in which a model is held against the people."""
+TIE = 1e-9
+"""Means of equal numbers differ by rounding; whoever is so little ahead exceeds nobody."""
 
 Draws = dict[str, NDArray[np.float64]]
 
@@ -40,43 +42,33 @@ def people_against_others(crowd: Crowd) -> dict[str, Figure]:
     return found
 
 
-def model_against_others(
-    marked: NDArray[np.bool_], crowd: Crowd, weights: Weights
-) -> dict[str, Figure]:
+def model_against_others(runs: DrawnRuns, crowd: Crowd) -> dict[str, Figure]:
     """Return where the runs of a model stand as one more participant.
-
-    Parameters
-    ----------
-    marked : ndarray of bool, shape (runs, units)
-        Which run marked which unit.
-    crowd : Crowd
-        The people.
-    weights : ndarray, shape (draws, runs)
-        How often each run counts in each draw.
 
     Returns
     -------
     dict of str to Figure
-        For F and kappa: the mean against the others of each person, that less the person's own,
-        and the share of people who are exceeded.
+        The mean against the others of each person; for F and kappa, that less the person's own,
+        and the share of people who are exceeded, with its Wilson interval.
     """
-    own, runs = crowd.against_others, hits(marked, crowd.others)
-    people, model = _people_in_draws(crowd), _model_in_draws(marked, crowd, weights)
-    once = np.ones((len(crowd.weights), 1))
+    own, met = crowd.against_others, crowd.meet_others(runs.marked)
+    people, model = _people_in_draws(crowd), _model_in_draws(runs, crowd)
     found = {}
-    for name in HELD:
-        theirs, mine = own.measure(name), known_mean(runs.measure(name), axis=1)
-        level, above = mean(mine), mean(mine - theirs)
+    for name in MEASURES:
+        level = mean(known_mean(met.measure(name), axis=1))
         draws = weighted_means(model[name], crowd.weights)
-        differences = weighted_means(model[name] - people[name], crowd.weights)
         found[f"{name}_others"] = Figure(level, centred_interval(draws, level, len(crowd), name))
-        found[f"{name}_ceiling"] = Figure(above, centred_interval(differences, above, len(crowd)))
-        exceeded = np.where(
-            np.isfinite(mine - theirs), (mine > theirs).astype(np.float64), np.nan
-        )  # fmt: skip
-        found[f"{name}_exceeds"] = Figure(
-            *mean_interval(exceeded[:, np.newaxis], crowd.weights, once)
+    for name in HELD:
+        above = known_mean(met.measure(name), axis=1) - own.measure(name)
+        draws = weighted_means(model[name] - people[name], crowd.weights)
+        found[f"{name}_ceiling"] = Figure(
+            mean(above), centred_interval(draws, mean(above), len(crowd))
         )
+        known = above[np.isfinite(above)]
+        exceeded = int((known > TIE).sum())
+        found[f"{name}_exceeds"] = Figure(
+            share(exceeded, len(known)), wilson(exceeded, len(known))
+        )  # fmt: skip
     return found
 
 
@@ -101,11 +93,11 @@ def _people_in_draws(crowd: Crowd) -> Draws:
     return found
 
 
-def _model_in_draws(marked: NDArray[np.bool_], crowd: Crowd, weights: Weights) -> Draws:
+def _model_in_draws(runs: DrawnRuns, crowd: Crowd) -> Draws:
     """Return how the drawn runs meet the others of each person, shape (draws, people)."""
-    found = {name: np.empty(crowd.weights.shape) for name in HELD}
+    found = {name: np.empty(crowd.weights.shape) for name in MEASURES}
     for person, others in _others_in_draws(crowd):
-        against = hits(marked, others)
-        for name in HELD:
-            found[name][:, person] = weighted_means(against.measure(name), weights)
+        against = hits(runs.marked, others)
+        for name in MEASURES:
+            found[name][:, person] = weighted_means(against.measure(name), runs.weights)
     return found

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ssrics_like.comparison.way import Way
 from ssrics_like.people.consensus import consensus_of, consensus_of_others
-from ssrics_like.people.hits import Hits, paired_hits
+from ssrics_like.people.hits import Hits, hits, paired_hits
 from ssrics_like.people.markers import Marker
 from ssrics_like.people.resampling import UNKNOWN, Interval, Weights
 
@@ -40,6 +40,25 @@ class Model:
     name: str
     runs: tuple[Marker, ...]
     ways: tuple[Way, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnRuns:
+    """The runs of a model, and how often each counts when they are drawn anew.
+
+    Attributes
+    ----------
+    marked : ndarray of bool, shape (runs, units)
+        Which run marked which unit.
+    weights : ndarray, shape (draws, runs)
+        How often each counts in each draw.
+    """
+
+    marked: NDArray[np.bool_]
+    weights: Weights
+
+    def __len__(self) -> int:
+        return len(self.marked)
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +99,27 @@ class Crowd:
     @property
     def against_others(self) -> Hits:
         """How each person meets the consensus of the others, shape (people,)."""
-        return paired_hits(self.marked, self.others)
+        return paired_hits(self.marked[:, self._judged], self.others[:, self._judged])
+
+    def meet_others(self, marked: NDArray[np.bool_]) -> Hits:
+        """Return how each of some sets of marks meets the others of each person.
+
+        Parameters
+        ----------
+        marked : ndarray of bool, shape (sets, units)
+            Which set has which unit.
+
+        Returns
+        -------
+        Hits
+            Arrays of shape (people, sets).
+        """
+        return hits(marked[:, self._judged], self.others[:, self._judged])
+
+    @property
+    def _judged(self) -> slice:
+        """The units that others can tell of: of a single person there are no others, and none."""
+        return slice(None) if len(self) > 1 else slice(0)
 
     def __len__(self) -> int:
         return len(self.marked)

@@ -13,7 +13,7 @@ from ssrics_like.comparison.matching import NONE
 from ssrics_like.comparison.proportions import LEVEL
 from ssrics_like.errors import ResultsError
 from ssrics_like.people.beside import Beside
-from ssrics_like.people.definitions import DEFINITIONS
+from ssrics_like.people.definitions import file_definitions
 from ssrics_like.people.hits import MEASURES, hits
 from ssrics_like.people.markers import PEOPLE
 from ssrics_like.people.resampling import known_mean
@@ -30,7 +30,18 @@ LOCATIONS = (
 MARKS = ("group", "marker", "mark", "x_m", "y_m", "t_s", "unit", "location")
 AGREEMENT = ("first_group", "first", "second_group", "second", "kappa", "agreement")
 MODELS = ("group", "markers", "figure", "value", "low", "high")
-PAIRS = ("first", "second", "measure", "difference", "low", "high", "count", "p", "p_holm")
+PAIRS = (
+    "first",
+    "second",
+    "measure",
+    "difference",
+    "low",
+    "high",
+    "count",
+    "p",
+    "p_runs",
+    "p_holm",
+)
 PEOPLE_COLUMNS = ("participant", "marks", "off_route", "measured", *MEASURES)
 
 
@@ -175,6 +186,7 @@ def pair_rows(made: Beside) -> list[Row]:
             "high": pair.difference.interval[1],
             "count": pair.count,
             "p": pair.p,
+            "p_runs": pair.p_runs,
             "p_holm": pair.p_holm,
         }
         for pair in made.pairs
@@ -184,7 +196,9 @@ def pair_rows(made: Beside) -> list[Row]:
 def people_rows(made: Beside) -> list[Row]:
     """Return rows for each person: how they, and each model, meet the consensus of the others."""
     own = made.crowd.against_others
-    theirs = {model.name: hits(made.marked[model.name], made.crowd.others) for model in made.models}
+    theirs = {
+        model.name: made.crowd.meet_others(made.marked[model.name]) for model in made.models
+    }  # fmt: skip
     rows = []
     for i, person in enumerate(made.people):
         off = int((made.units.of(person.xy_m) == NONE).sum())
@@ -214,7 +228,7 @@ def comparison_data(made: Beside, sources: Mapping[str, Any]) -> Row:
             "consensus_share": CONSENSUS,
             "locations": "found from people's marks" if made.clustered else "labelled",
         },
-        "definitions": DEFINITIONS,
+        "definitions": file_definitions(),
         "notes": list(made.notes),
         "units": {
             "all": len(made.units),

@@ -10,12 +10,13 @@ import numpy as np
 
 from ssrics_like.comparison.folder import MAP, building_of
 from ssrics_like.comparison.way import Way
-from ssrics_like.errors import MapError, ResultsError, SettingsError
+from ssrics_like.errors import MapError, ResultsError
 from ssrics_like.maps import load_building
 from ssrics_like.maps.places import load_choices
 from ssrics_like.people.clusters import found_locations
 from ssrics_like.people.figures import Model
-from ssrics_like.people.markers import PEOPLE, Marker, people_of, runs_of
+from ssrics_like.people.markers import PEOPLE, Marker, people_of, runs_of, silent_people
+from ssrics_like.people.participants import NONE, Listed, list_beside, read_participants
 from ssrics_like.results.folder import MANIFEST
 from ssrics_like.results.reading import read_records
 from ssrics_like.results.records import Records
@@ -36,8 +37,10 @@ class Folders:
     ----------
     choices : Path
         The file of people's choices.
+    listed : Listed or None
+        Who took part, and what list says so; None if only who has choices is known.
     people : tuple of Marker
-        The participants.
+        The participants; those who marked nothing last.
     models : tuple of Model
         The models.
     records : tuple of Records
@@ -51,6 +54,7 @@ class Folders:
     """
 
     choices: Path
+    listed: Listed | None
     people: tuple[Marker, ...]
     models: tuple[Model, ...]
     records: tuple[Records, ...]
@@ -60,7 +64,11 @@ class Folders:
 
 
 def read_folders(
-    folders: Sequence[Path], choices: Path, locations: str | None, radius_m: float
+    folders: Sequence[Path],
+    choices: Path,
+    locations: str | Path | None,
+    radius_m: float,
+    participants: str | Path | None = None,
 ) -> Folders:
     """Read results folders and people's choices.
 
@@ -70,26 +78,31 @@ def read_folders(
         Folders that ``ssrics run`` or ``ssrics replay`` wrote, one a model; at least one.
     choices : Path
         CSV file of people's choices, in the frame of the map.
-    locations : str, optional
+    locations : str or Path, optional
         A map's YAML file that labels locations, or ``cluster`` to find them from people's marks.
         If left out, the locations of the map that the runs were made on, and found ones where it
         has none.
     radius_m : float
         Of a found location, metres.
+    participants : str or Path, optional
+        CSV file of who took part, or ``none``. If left out, the list that ``ssrics study export``
+        wrote beside the choices, where there is one.
 
     Raises
     ------
-    ResultsError, MapError, SettingsError
+    ResultsError, MapError
         With one line for each thing that is wrong.
     """
-    people = people_of(load_choices(choices))
+    choosing = people_of(load_choices(choices))
+    listed = _listed(participants, choices, choosing)
+    people = choosing + silent_people(listed.silent if listed else ())
     records = tuple(read_records(folder) for folder in folders)
     for one in records:
         _check_frame(one)
     building = _building(folders)
     named = None
     if locations is not None and locations != CLUSTER:
-        named = _labelled(locations)
+        named = _labelled(Path(locations))
         building = building or named
     if building is not None:
         _check_on_map(people, building, choices)
@@ -111,7 +124,16 @@ def read_folders(
         )
         for name, one in zip(_names(folders), records, strict=True)
     )
-    return Folders(choices, people, models, records, building, places, clustered)
+    return Folders(choices, listed, people, models, records, building, places, clustered)
+
+
+def _listed(
+    participants: str | Path | None, choices: Path, choosing: Sequence[Marker]
+) -> Listed | None:
+    if participants == NONE:
+        return None
+    file = list_beside(choices) if participants is None else Path(participants)
+    return read_participants(file, choices, (p.name for p in choosing)) if file else None
 
 
 def _names(folders: Sequence[Path]) -> list[str]:
@@ -129,12 +151,7 @@ def _names(folders: Sequence[Path]) -> list[str]:
     return names
 
 
-def _labelled(locations: str) -> Building:
-    path = Path(locations)
-    if path.suffix not in (".yaml", ".yml"):
-        raise SettingsError(
-            f"--locations: '{locations}': expected a map's file ending in .yaml, or {CLUSTER}"
-        )
+def _labelled(path: Path) -> Building:
     building = load_building(path)
     if not building.locations:
         raise MapError(f"{path}: locations: no place is labelled, expected at least one")

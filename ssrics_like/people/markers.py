@@ -63,6 +63,11 @@ def people_of(choices: Iterable[Choice]) -> tuple[Marker, ...]:
     )
 
 
+def silent_people(names: Iterable[str]) -> tuple[Marker, ...]:
+    """Return participants who marked nothing."""
+    return tuple(Marker(name, PEOPLE, np.empty((0, 2)), np.empty(0), ()) for name in names)
+
+
 def runs_of(records: Records, model: str) -> tuple[Marker, ...]:
     """Return the runs of a results folder as the markers of one model.
 

@@ -5,14 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssrics_like.comparison.chance import DRAWS, random_marks
-from ssrics_like.comparison.proportions import chance_corrected
 from ssrics_like.people.ceiling import model_against_others
-from ssrics_like.people.figures import Crowd, Figure, Model
+from ssrics_like.people.figures import Crowd, DrawnRuns, Figure
 from ssrics_like.people.hits import MEASURES, hits
-from ssrics_like.people.raters import alpha, fleiss, mean_kappa
+from ssrics_like.people.raters import alpha, fleiss, mean_kappa, weighted_fleiss
 from ssrics_like.people.resampling import (
-    Weights,
     centred_interval,
     interval,
     known_median,
@@ -20,25 +17,17 @@ from ssrics_like.people.resampling import (
     mean_interval,
     weighted_means,
 )
-from ssrics_like.people.units import Units
 
 
-def model_figures(
-    marked: NDArray[np.bool_],
-    crowd: Crowd,
-    weights: Weights,
-    kappa: NDArray[np.float64],
-) -> dict[str, Figure]:
+def model_figures(runs: DrawnRuns, crowd: Crowd, kappa: NDArray[np.float64]) -> dict[str, Figure]:
     """Return the figures of a model's runs.
 
     Parameters
     ----------
-    marked : ndarray of bool, shape (runs, units)
-        Which run marked which unit.
+    runs : DrawnRuns
+        What they marked.
     crowd : Crowd
         The people.
-    weights : ndarray, shape (draws, runs)
-        How often each run counts in each draw.
     kappa : ndarray, shape (people + runs, people + runs)
         Cohen's kappa of every pair, people first.
 
@@ -48,63 +37,44 @@ def model_figures(
         The keys are explained in `definitions`.
     """
     people = len(crowd)
-    found = _against_consensus(marked, crowd, weights)
-    between = kappa[:people, people:]
-    found["kappa_people"] = Figure(*mean_interval(between, crowd.weights, weights))
+    between, among = kappa[:people, people:], kappa[people:, people:]
+    found = _against_consensus(runs, crowd)
+    found["kappa_people"] = Figure(*mean_interval(between, crowd.weights, runs.weights))
     found["kappa_people_median"] = Figure(known_median(between))
-    runs = kappa[people:, people:]
     found["consistency"] = Figure(
-        mean(runs[np.triu_indices(len(runs), 1)]),
-        interval(mean_kappa(runs, weights), len(runs)),
+        mean(among[np.triu_indices(len(among), 1)]),
+        interval(mean_kappa(among, runs.weights), len(among)),
     )
-    joined = [np.vstack([crowd.marked, run]) for run in marked]
-    found["fleiss"] = Figure(mean(np.array([fleiss(table) for table in joined])))
-    found["alpha"] = Figure(mean(np.array([alpha(table) for table in joined])))
-    return found | model_against_others(marked, crowd, weights)
+    return found | _joined(runs, crowd) | model_against_others(runs, crowd)
 
 
-def chance_figures(
-    model: Model, units: Units, crowd: Crowd, f: float, generator: np.random.Generator
-) -> dict[str, Figure]:
-    """Return the F of marks that know nothing, and F corrected for it.
+def _joined(runs: DrawnRuns, crowd: Crowd) -> dict[str, Figure]:
+    """Return the agreement of all people and one run, as one more of them; mean over the runs.
 
-    As many marks as each run made are set at random on its way, uniformly by length, as
-    `ssrics_like.comparison` does, and meet the same consensus.
-
-    Parameters
-    ----------
-    model : Model
-        The runs with their ways.
-    units : Units
-        What can be marked.
-    crowd : Crowd
-        The people.
-    f : float
-        Mean F of the runs.
-    generator : numpy.random.Generator
-        Source of the randomness.
+    In each draw people are drawn anew and the run is there once; then the runs are drawn. Whoever
+    is drawn twice makes no pair with themselves, so that the run's pairs weigh more than among as
+    many different people; draws are moved for that.
     """
-    values = []
-    for run, way in zip(model.runs, model.ways, strict=True):
-        if len(way.xy_m) == 0:
-            continue
-        marks = way.at(random_marks(way, len(run), generator))
-        fell = units.of(marks.reshape(-1, 2)).reshape(DRAWS, len(run))
-        table = np.zeros((DRAWS, len(units) + 1), bool)  # the last column takes what is off
-        table[np.arange(DRAWS)[:, np.newaxis], fell] = True
-        values.append(mean(hits(table[:, :-1], crowd.consensus[np.newaxis]).f))
-    chance = mean(np.array(values, np.float64))
-    return {"f_chance": Figure(chance), "f_corrected": Figure(chance_corrected(f, chance))}
+    once = np.ones((len(crowd.weights), 1))
+    weights = np.hstack([crowd.weights, once])
+    tables = [np.vstack([crowd.marked, run]) for run in runs.marked]
+    drawn = [weighted_fleiss(table, weights) for table in tables]
+    found = {}
+    for name, measure, column in (("fleiss", fleiss, 0), ("alpha", alpha, 1)):
+        draws = np.column_stack([one[column] for one in drawn])
+        value = mean(np.array([measure(table) for table in tables]))
+        draws = weighted_means(draws, runs.weights)
+        found[name] = Figure(value, centred_interval(draws, value, len(crowd), "kappa"))
+    return found
 
 
-def _against_consensus(
-    marked: NDArray[np.bool_], crowd: Crowd, weights: Weights
-) -> dict[str, Figure]:
+def _against_consensus(runs: DrawnRuns, crowd: Crowd) -> dict[str, Figure]:
     """Return the means over the runs; in each draw, people form their consensus anew."""
-    now, drawn = hits(marked, crowd.consensus[np.newaxis]), hits(marked, crowd.drawn_consensus)
+    now = hits(runs.marked, crowd.consensus[np.newaxis])
+    drawn = hits(runs.marked, crowd.drawn_consensus)
     found = {}
     for name in MEASURES:
         value = mean(now.measure(name))
-        draws = weighted_means(drawn.measure(name), weights)
+        draws = weighted_means(drawn.measure(name), runs.weights)
         found[name] = Figure(value, centred_interval(draws, value, len(crowd), name))
     return found

@@ -10,10 +10,13 @@ from numpy.typing import NDArray
 from ssrics_like.comparison.matching import NONE
 from ssrics_like.people.figures import Crowd, Model
 from ssrics_like.people.markers import PEOPLE, Marker
+from ssrics_like.people.names import in_a_row, short
+from ssrics_like.people.resampling import LEAST
 from ssrics_like.people.units import Units
+from ssrics_like.results.counts import counted
 
-FEW = 5
-"""With fewer people, intervals and the consensus say little."""
+ALPHA = 0.05
+"""A test that cannot come below it is said to be unable to."""
 
 
 def notes_of(
@@ -26,14 +29,7 @@ def notes_of(
     clustered: bool,
 ) -> tuple[str, ...]:
     """Return the notes on a comparison, one sentence or two each."""
-    notes = []
-    if len(people) == 1:
-        notes.append(
-            "There is one participant: nothing can be said of how people agree, of the ceiling, or "
-            "of how certain the figures are."
-        )
-    elif len(people) < FEW:
-        notes.append(f"There are only {len(people)} participants; intervals are wide, and rough.")
+    notes = _few(people, models)
     if not units.locations:
         said = "no two people marked the same place" if clustered else "no place is labelled"
         notes.append(f"There is no location: {said}. Every unit is a bin of the route.")
@@ -41,10 +37,45 @@ def notes_of(
     if not crowd.consensus.any():
         notes.append(
             "No unit was marked by at least half of the people: there is no consensus, so that "
-            "recall, F, d' and what is made of them are empty."
+            "recall, F, d′ and what is made of them are empty."
         )
     notes += _undecided(people, models, marked, len(units))
     return tuple(notes)
+
+
+def _few(people: Sequence[Marker], models: Sequence[Model]) -> list[str]:
+    """Say what so few people, or runs, cannot tell."""
+    notes, count = [], len(people)
+    if count == 1:
+        notes.append(
+            "There is one participant: nothing can be said of how people agree, of the ceiling, or "
+            "of how certain the figures are."
+        )
+    elif count < LEAST:
+        notes.append(
+            f"There are {count} participants. Intervals of figures need {LEAST}: drawn from fewer, "
+            "they would be no more than the range of these few. Shares have Wilson's interval."
+        )
+    least_p = 2.0 ** (1 - count)
+    if len(models) > 1 and count > 1 and least_p > ALPHA:
+        notes.append(
+            f"With {count} participants, p of models compared over people cannot be below "
+            f"{f'{least_p:.3g}'.removeprefix('0')}, however different the models are."
+        )
+    single = [model.name for model in models if len(model.runs) == 1]
+    several = [model for model in models if 1 < len(model.runs) < LEAST]
+    if single:
+        holds = "holds" if len(single) == 1 else "hold"
+        notes.append(
+            f"Of {in_a_row(single)} there is one run: what is said of it {holds} for this run, and "
+            "intervals tell only how people differ."
+        )
+    notes += [
+        f"Of {short(model.name)} there are {len(model.runs)} runs; the interval of κ against each "
+        f"other run needs {LEAST}."
+        for model in several
+    ]
+    return notes
 
 
 def _off_route(people: Sequence[Marker], models: Sequence[Model], units: Units) -> list[str]:
@@ -54,16 +85,20 @@ def _off_route(people: Sequence[Marker], models: Sequence[Model], units: Units) 
     if far:
         notes.append(
             f"Fewer than half of the runs came within {route.radius_m:g} m of "
-            f"{_listed('location', far)}: in the table of locations only."
+            f"{in_a_row(far, 'location')}: in the table of locations only."
         )
     if route.dropped:
-        notes.append(f"{route.dropped} bins that fewer than half of the runs came by are left out.")
+        bins, are = counted(route.dropped, "bin"), "is" if route.dropped == 1 else "are"
+        notes.append(
+            f"{bins} of the route that fewer than half of the runs came by {are} left out."
+        )
     for name, markers in ((PEOPLE, people), *((m.name, m.runs) for m in models)):
         fell = np.concatenate([units.of(marker.xy_m) for marker in markers])
         off = int((fell == NONE).sum())
         if off:
             notes.append(
-                f"{off} of {len(fell)} marks of {name} lie off the route and count for no unit."
+                f"{off} of {len(fell)} marks of {short(name)} lie off the route and count for no "
+                "unit."
             )
     return notes
 
@@ -85,16 +120,6 @@ def _undecided(
             who = [m.name for m, yes in zip(markers, chosen.tolist(), strict=True) if yes]
             if who and units:
                 notes.append(
-                    f"{_listed('', who)} of {name} marked {said}: kappa of two such is not defined."
+                    f"{in_a_row(who)} of {short(name)} marked {said}: κ of two such is not defined."
                 )
     return notes
-
-
-def _listed(what: str, names: Sequence[str]) -> str:
-    """Return names in a row: ``locations 1, 2 and 3``; at most six of them."""
-    most = 6
-    shown = [*names[:most], f"{len(names) - most} others"] if len(names) > most else list(names)
-    text = shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
-    if not what:
-        return text
-    return f"{what}{'s' if len(names) > 1 else ''} {text}"

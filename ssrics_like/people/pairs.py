@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import permutation_test
 
-from ssrics_like.people.figures import Figure
+from ssrics_like.people.figures import Crowd, DrawnRuns, Figure
 from ssrics_like.people.hits import hits
 from ssrics_like.people.optional import needed
-from ssrics_like.people.resampling import Weights, drawn_means, interval, known_mean
+from ssrics_like.people.resampling import drawn_means, interval, known_mean
 from ssrics_like.people.settings import CONSENSUS
 
 MEASURES = ("f", "kappa")
 LOCATIONS = "locations"
 """Name of the comparison of who is right about which location."""
 DRAWS = 9999
-"""So many changes of sign are drawn where there are more of them, that is from 14 people on."""
+"""So many changes of sign, or exchanges of runs, are drawn where there are more of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,9 +40,12 @@ class Pair:
     count : int
         People, or locations, that are compared.
     p : float
-        Probability of such a difference if the models were alike; two-sided.
+        Probability of such a difference if the models were alike, over people or locations;
+        two-sided.
+    p_runs : float
+        The same over runs; NaN for ``locations``, and where a model has a single run.
     p_holm : float
-        The same, corrected for the number of pairs of models.
+        The larger of both, corrected for the number of pairs of models.
     """
 
     first: str
@@ -51,100 +54,124 @@ class Pair:
     difference: Figure
     count: int
     p: float
+    p_runs: float = math.nan
     p_holm: float = math.nan
+
+    @property
+    def p_largest(self) -> float:
+        """The larger of both probabilities; NaN where that over people cannot be said."""
+        return self.p if math.isnan(self.p_runs) else max(self.p, self.p_runs)
 
 
 def compared_pairs(
-    marked: dict[str, NDArray[np.bool_]],
-    people: NDArray[np.bool_],
-    people_weights: Weights,
-    run_weights: dict[str, Weights],
-    consensus: NDArray[np.bool_],
+    models: Mapping[str, DrawnRuns],
+    crowd: Crowd,
+    locations: int,
     generator: np.random.Generator,
 ) -> tuple[Pair, ...]:
     """Compare every two models.
 
-    The participants are the sample. Of each, the mean over the runs of a model of how near they
-    come to what this participant marked is taken, so that the values of different participants do
-    not depend on each other as those against a common consensus would.
+    Of each person, the mean over the runs of a model of how near they come to what this person
+    marked is taken, so that the values of different people do not depend on each other as those
+    against a common consensus would. Both people and runs are samples. A difference that all
+    people see in the same few runs may be one of these runs, not of the models, as Clark (1973)
+    said of the words of an experiment; therefore runs are exchanged between the models, too, and
+    the larger probability counts.
 
     Parameters
     ----------
-    marked : dict of str to ndarray of bool, shape (runs, units)
-        Which run of each model marked which unit.
-    people : ndarray of bool, shape (people, units)
-        Who marked which unit.
-    people_weights : ndarray, shape (draws, people)
-        How often each person counts in each draw.
-    run_weights : dict of str to ndarray, shape (draws, runs)
-        How often each run counts in each draw.
-    consensus : ndarray of bool, shape (locations,)
-        What people agree about the locations on the route, which are the first units.
+    models : mapping of str to DrawnRuns
+        What the runs of each model marked.
+    crowd : Crowd
+        The people.
+    locations : int
+        How many of the units, the first ones, are locations.
     generator : numpy.random.Generator
-        Draws changes of sign.
+        Draws changes of sign and exchanges.
     """
     pairs = []
-    for first, second in itertools.combinations(marked, 2):
-        near = hits(marked[first], people), hits(marked[second], people)
+    for first, second in itertools.combinations(models, 2):
+        chosen = models[first], models[second]
+        near = [hits(runs.marked, crowd.marked) for runs in chosen]
         for measure in MEASURES:
             a, b = (one.measure(measure) for one in near)
-            pairs.append(
-                _by_people(
-                    first, second, measure, a, b,
-                    people_weights, (run_weights[first], run_weights[second]), generator,
-                )
-            )  # fmt: skip
-        pairs.append(_by_locations(first, second, marked, consensus))
+            over_people = _by_people(chosen, crowd, a, b, generator)
+            over_runs = _by_runs(a, b, generator)
+            pairs.append(Pair(first, second, measure, *over_people, over_runs))
+        pairs.append(_by_locations(first, second, chosen, crowd.consensus[:locations]))
     return _holm(pairs)
 
 
 def _by_people(
-    first: str,
-    second: str,
-    measure: str,
+    runs: tuple[DrawnRuns, DrawnRuns],
+    crowd: Crowd,
     a: NDArray[np.float64],
     b: NDArray[np.float64],
-    people: Weights,
-    runs: tuple[Weights, Weights],
     generator: np.random.Generator,
-) -> Pair:
-    """Compare by people: a and b have the shapes (people, runs of each model)."""
+) -> tuple[Figure, int, float]:
+    """Compare by people: a and b have the shapes (people, runs of each model).
+
+    Returns
+    -------
+    tuple of Figure, int and float
+        The difference, of how many people, and its probability over them.
+    """
     mine, theirs = known_mean(a, axis=1), known_mean(b, axis=1)
     known = np.isfinite(mine) & np.isfinite(theirs)
-    drawn = drawn_means(a[known], people[:, known], runs[0])
-    drawn -= drawn_means(b[known], people[:, known], runs[1])
-    count = int(known.sum())
+    count, people = int(known.sum()), crowd.weights[:, known]
+    if count == 0:
+        return Figure(), 0, math.nan
+    drawn = drawn_means(a[known], people, runs[0].weights)
+    drawn -= drawn_means(b[known], people, runs[1].weights)
     p = math.nan
     if count > 1:
-        p = float(
-            permutation_test(
-                (mine[known], theirs[known]), _difference, permutation_type="samples",
-                vectorized=True, n_resamples=DRAWS, rng=generator,
-            ).pvalue
-        )  # fmt: skip
-    value = float(_difference(mine[known], theirs[known])) if count else math.nan
-    return Pair(first, second, measure, Figure(value, interval(drawn, count)), count, p)
+        p = _permuted(mine[known], theirs[known], "samples", generator)
+    return Figure(float((mine - theirs)[known].mean()), interval(drawn, count)), count, p
+
+
+def _by_runs(
+    a: NDArray[np.float64], b: NDArray[np.float64], generator: np.random.Generator
+) -> float:
+    """Return the probability of the difference if runs were exchanged between the models.
+
+    NaN where a model has a single run.
+    """
+    mine, theirs = (known_mean(values, axis=0) for values in (a, b))
+    mine, theirs = mine[np.isfinite(mine)], theirs[np.isfinite(theirs)]
+    if min(len(mine), len(theirs)) < 2:  # noqa: PLR2004 - one does not tell how runs differ
+        return math.nan
+    return _permuted(mine, theirs, "independent", generator)
+
+
+def _permuted(
+    a: NDArray[np.float64], b: NDArray[np.float64], kind: str, generator: np.random.Generator
+) -> float:
+    """Return the two-sided probability of a difference of means under a permutation."""
+    return float(
+        permutation_test(
+            (a, b), _difference, permutation_type=kind, vectorized=True, n_resamples=DRAWS,
+            rng=generator,
+        ).pvalue
+    )  # fmt: skip
 
 
 def _difference(
     a: NDArray[np.float64], b: NDArray[np.float64], axis: int = -1
 ) -> NDArray[np.float64]:
-    return np.asarray((a - b).mean(axis=axis))
+    return np.asarray(a.mean(axis=axis) - b.mean(axis=axis))
 
 
 def _by_locations(
     first: str,
     second: str,
-    marked: dict[str, NDArray[np.bool_]],
+    runs: tuple[DrawnRuns, DrawnRuns],
     consensus: NDArray[np.bool_],
 ) -> Pair:
     """Compare by McNemar's exact test (1947) what most runs say of each location."""
     count = len(consensus)
     if count == 0:
         return Pair(first, second, LOCATIONS, Figure(), 0, math.nan)
-    a, b = (
-        (marked[name][:, :count].mean(axis=0) >= CONSENSUS) == consensus for name in (first, second)
-    )
+    a, b = ((one.marked[:, :count].mean(axis=0) >= CONSENSUS) == consensus for one in runs)
     table = [[(a & b).sum(), (a & ~b).sum()], [(~a & b).sum(), (~a & ~b).sum()]]
     mcnemar = needed("statsmodels.stats.contingency_tables").mcnemar
     p = float(mcnemar(np.array(table), exact=True).pvalue)
@@ -157,10 +184,12 @@ def _holm(pairs: Sequence[Pair]) -> tuple[Pair, ...]:
     corrected = list(pairs)
     for measure in (*MEASURES, LOCATIONS):
         chosen = [
-            i for i, pair in enumerate(pairs) if pair.measure == measure and math.isfinite(pair.p)
+            i
+            for i, pair in enumerate(pairs)
+            if pair.measure == measure and math.isfinite(pair.p_largest)
         ]
         if chosen:
-            _, values, *_ = multipletests([pairs[i].p for i in chosen], method="holm")
+            _, values, *_ = multipletests([pairs[i].p_largest for i in chosen], method="holm")
             for i, p in zip(chosen, values.tolist(), strict=True):
                 corrected[i] = replace(pairs[i], p_holm=p)
     return tuple(corrected)

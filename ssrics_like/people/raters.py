@@ -105,7 +105,8 @@ def weighted_fleiss(
     """Return Fleiss' kappa and Krippendorff's alpha of markers that count so often.
 
     With every weight 1 they are those of `fleiss` and `alpha`. A marker that counts twice makes no
-    pair with itself, for it would agree with itself about everything.
+    pair with itself, for it would agree with itself about everything. What is to be expected by
+    chance is taken from the same pairs: each marker counts as often as there are pairs with it.
 
     Parameters
     ----------
@@ -129,7 +130,8 @@ def weighted_fleiss(
     pairs = _quadratic(weights, 1.0 - np.eye(markers))
     observed = np.divide(_quadratic(weights, agree), pairs, out=none.copy(), where=pairs > 0)
     raters = weights.sum(axis=1)
-    p = weights @ table.mean(axis=1) / np.where(raters > 0, raters, np.nan)
+    paired = weights * (raters[:, np.newaxis] - weights)  # how many pairs each marker is in
+    p = paired @ table.mean(axis=1) / np.where(pairs > 0, pairs, np.nan)
     differ = 2.0 * p * (1.0 - p)  # how often two marks drawn from all would differ
     by_chance = np.where(differ > 0, differ, np.nan)
     kappa = 1.0 - (1.0 - observed) / by_chance

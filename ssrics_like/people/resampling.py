@@ -13,8 +13,18 @@ from ssrics_like.comparison.proportions import LEVEL
 Weights = NDArray[np.float64]
 Interval = tuple[float, float]
 UNKNOWN: Interval = (math.nan, math.nan)
-LIMITS = {"precision": (0.0, 1.0), "recall": (0.0, 1.0), "f": (0.0, 1.0), "kappa": (-1.0, 1.0)}
+LIMITS = {
+    "precision": (0.0, 1.0), "recall": (0.0, 1.0), "f": (0.0, 1.0), "kappa": (-1.0, 1.0),
+    "above_chance": (-math.inf, 1.0),
+}  # fmt: skip
 """What a measure cannot exceed."""
+LEAST = 5
+"""People, or runs, that an interval is drawn from.
+
+Of four the widened percentiles lie beyond the most extreme draws, those of one marker again and
+again, so that the interval would be the range of what these four did.
+"""
+ALIKE = 1e-12
 TOLD = 0.5
 """At least this share of the draws must have a value."""
 
@@ -46,7 +56,8 @@ def interval(values: NDArray[np.float64], count: int, level: float = LEVEL) -> I
     Returns
     -------
     low, high : float
-        NaN for fewer than two, and where most draws have no value.
+        NaN for fewer than `LEAST`, where most draws have no value, and where all draws are alike:
+        they say nothing of what other people, or runs, would do.
 
     References
     ----------
@@ -54,15 +65,20 @@ def interval(values: NDArray[np.float64], count: int, level: float = LEVEL) -> I
     should know about the bootstrap": drawing n of n has a variance (n - 1) / n times too small, and
     Student's quantiles replace the normal ones.
     """
-    if count < 2:  # noqa: PLR2004 - one tells nothing of how they differ
+    if count < LEAST:
         return UNKNOWN
     known = values[np.isfinite(values)]
-    if len(known) < TOLD * len(values) or len(known) == 0:
+    if len(known) < TOLD * len(values) or len(known) == 0 or np.ptp(known) < ALIKE:
         return UNKNOWN
-    tail = (1.0 - level) / 2.0
-    wide = norm.cdf(math.sqrt(count / (count - 1)) * t.ppf(tail, count - 1))
+    wide = widened_tail(count, level)
     low, high = np.quantile(known, [wide, 1.0 - wide]).tolist()
     return low, high
+
+
+def widened_tail(count: int, level: float = LEVEL) -> float:
+    """Return the share of draws below an interval of two markers or more, widened for few."""
+    tail = (1.0 - level) / 2.0
+    return float(norm.cdf(math.sqrt(count / (count - 1)) * t.ppf(tail, count - 1)))
 
 
 def centred_interval(

@@ -10,6 +10,10 @@ from ssrics_like.report.words import figure_text, interval_text, percent_text
 
 UNSORTED = -math.inf
 """Sorts a dash below every share."""
+HEADINGS = (
+    "location", "label", "kind", "found", "share of runs", "95 % interval", "by chance",
+    "by a clock", "published",
+)  # fmt: skip
 
 
 def locations_of(made: FolderScores | None) -> dict[str, Any] | None:
@@ -29,12 +33,16 @@ def locations_of(made: FolderScores | None) -> dict[str, Any] | None:
 
 
 def _table(made: FolderScores, places: list[PlaceScore]) -> dict[str, Any]:
-    """Return rows of cells, and whether a share of any of the places was published."""
+    """Return a table as listing.html takes it; published shares stand last, if there are any."""
     published = [made.published.get(place.location.id) for place in places]
+    has_published = any(share is not None for share in published)
+    columns = len(HEADINGS) if has_published else len(HEADINGS) - 1
     return {
-        "has_published": any(share is not None for share in published),
+        "has_published": has_published,
+        "headings": HEADINGS[:columns],
+        "words": 3,
         "rows": [
-            _row(i, place, share)
+            {"cells": _row(i, place, share)[:columns], "link": "", "nearest": False}
             for i, (place, share) in enumerate(zip(places, published, strict=True))
         ],
     }

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssrics_like.people.beside import Beside
+from ssrics_like.people.names import short
 from ssrics_like.people.resampling import known_mean
 from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.labels import text_half_size
-from ssrics_like.report.people_style import colours_of, short
+from ssrics_like.report.people_style import colours_of, name_tips
 from ssrics_like.report.words import number_text
 
 if TYPE_CHECKING:
@@ -21,12 +22,13 @@ if TYPE_CHECKING:
     from matplotlib.colors import Colormap
     from matplotlib.figure import Figure
 
-SIDES_PT = (6.0, 20.0)
-"""Least and largest side of a cell."""
-WIDTH_PT = 470.0
-WRITTEN_PT, NAMED_PT = 15.0, 7.5
+SIDE_PT = 34.0
+"""Largest side of a cell; the matrix is not wider than the page."""
+WRITTEN_PT, NAMED_PT = 13.0, 6.5
 """Cells at least so large carry their value, and rows their marker's name."""
-TOP_PT, BOTTOM_PT, BAR_PT = 30.0, 12.0, 96.0
+CELLS_MAX = 150
+"""Of more markers the cells are a picture, without a line around each."""
+TOP_PT, BOTTOM_PT, LEFT_PT, BAR_PT = 30.0, 12.0, 22.0, 84.0
 NAME_MAX = 16
 GLYPH_PT = 6.6
 """Width of a bold letter."""
@@ -38,9 +40,13 @@ def draw_people_agreement(made: Beside) -> Drawing | None:
     count = len(order)
     if count < 2:  # noqa: PLR2004 - no pair
         return None
-    side_pt = min(max(WIDTH_PT / count, SIDES_PT[0]), SIDES_PT[1])
-    names = [short(made.markers[i].name, NAME_MAX) for i in order]
-    left_pt = 22.0 + max(2 * text_half_size(name, style.SMALL_PT)[0] for name in names)
+    whole = [made.markers[i].name for i in order]
+    names = [short(name, NAME_MAX) for name in whole]
+    width_pt = style.WIDTH_IN * style.POINTS - LEFT_PT - BAR_PT
+    names_pt = max(2 * text_half_size(name, style.SMALL_PT)[0] for name in names)
+    if (width_pt - names_pt) / count < NAMED_PT:
+        names, names_pt = [], 0.0
+    side_pt, left_pt = min((width_pt - names_pt) / count, SIDE_PT), LEFT_PT + names_pt
     size_pt = side_pt * count
     height_pt = max(size_pt + TOP_PT + BOTTOM_PT, 190.0)
     width_pt = left_pt + size_pt + BAR_PT
@@ -48,11 +54,14 @@ def draw_people_agreement(made: Beside) -> Drawing | None:
     axes = style.place_axes(figure, left_pt, BAR_PT, height_pt - TOP_PT - size_pt, TOP_PT)
     values = made.kappa[np.ix_(order, order)]
     _draw_cells(axes, values, side_pt)
-    if side_pt >= NAMED_PT:
-        axes.set_yticks(np.arange(count) + 0.5, names, fontsize=min(style.SMALL_PT, side_pt - 1))
+    tips = {}
+    if names:
+        size = min(style.FONT_PT, side_pt - 0.8)
+        axes.set_yticks(np.arange(count) + 0.5, names, fontsize=size)
+        tips = name_tips(axes, names, whole)
     else:
         axes.set_yticks([])
-    _draw_groups(axes, made, side_pt)
+    _draw_groups(axes, made, side_pt, before=not names)
     _draw_scale(figure, left_pt + size_pt, height_pt, width_pt)
     return Drawing(
         "agreement",
@@ -61,6 +70,7 @@ def draw_people_agreement(made: Beside) -> Drawing | None:
         "Cohen's κ of every two markers over all units: people first, in order of their mean κ "
         "with the other people, then the runs of each model, likewise with the people. White is "
         f"agreement as by chance, blue above, orange below it.{_undefined(values)}",
+        tips,
     )
 
 
@@ -104,8 +114,11 @@ def _draw_cells(axes: Axes, values: NDArray[np.float64], side_pt: float) -> None
     axes.set_xlim(0, count)
     axes.set_ylim(count, 0)
     shown = np.ma.masked_invalid(values)
-    axes.pcolormesh(shown, cmap=colours_of_kappa(), vmin=-1, vmax=1, edgecolors="white",
-                    linewidth=0.4)  # fmt: skip
+    look: dict[str, Any] = {"cmap": colours_of_kappa(), "vmin": -1, "vmax": 1}
+    if count > CELLS_MAX:
+        axes.imshow(shown, extent=(0, count, count, 0), aspect="auto", interpolation="none", **look)
+    else:
+        axes.pcolormesh(shown, edgecolors="white", linewidth=0.4, **look)
     for i, j in zip(*np.nonzero(~np.isfinite(values)), strict=True):
         same = i == j
         axes.add_patch(
@@ -117,7 +130,7 @@ def _draw_cells(axes: Axes, values: NDArray[np.float64], side_pt: float) -> None
             if math.isfinite(value):
                 axes.text(
                     j + 0.5, i + 0.5, kappa_text(value), ha="center", va="center_baseline",
-                    fontsize=style.TINY_PT - 0.4,
+                    fontsize=min(0.42 * side_pt, style.FONT_PT),
                     color="white" if abs(value) > 0.45 else style.INK,  # noqa: PLR2004
                 )  # fmt: skip
     axes.set_xticks([])
@@ -126,21 +139,26 @@ def _draw_cells(axes: Axes, values: NDArray[np.float64], side_pt: float) -> None
         spine.set_visible(False)
 
 
-def _draw_groups(axes: Axes, made: Beside, side_pt: float) -> None:
+def _draw_groups(axes: Axes, made: Beside, side_pt: float, *, before: bool) -> None:
     """Draw each group's name above its columns, and before its rows if those carry no name."""
     first, groups = 0, colours_of(made)
-    before = side_pt < NAMED_PT
     for number, (group, table) in enumerate(made.marked.items()):
         last = first + len(table)
         look: dict[str, Any] = {"color": groups[group], "linewidth": 3.0, "clip_on": False,
                                 "solid_capstyle": "butt"}  # fmt: skip
-        name = short(group, max(1, int((last - first) * side_pt / GLYPH_PT)))
+        room = int((last - first) * side_pt / GLYPH_PT)
+        # Above the names of rows there is room to the left of the first group.
+        to_left = number == 0 and not before and len(group) > room
+        name = short(group, NAME_MAX if to_left else max(2, room))
         said: dict[str, Any] = {
             "textcoords": "offset points", "fontsize": style.FONT_PT, "fontweight": "bold",
             "color": groups[group], "annotation_clip": False,
         }  # fmt: skip
         axes.plot([first + 0.1, last - 0.1], [-4 / side_pt] * 2, **look)
-        axes.annotate(name, (first, 0), (0.5, 9), ha="left", va="bottom", **said)
+        axes.annotate(
+            name, (last if to_left else first, 0), (-5 if to_left else 0.5, 9),
+            ha="right" if to_left else "left", va="bottom", **said,
+        )  # fmt: skip
         if before:
             axes.plot([-4 / side_pt] * 2, [first + 0.1, last - 0.1], **look)
             axes.annotate(name, (0, first), (-9, 0), ha="right", va="top", rotation=90, **said)

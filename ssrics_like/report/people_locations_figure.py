@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from ssrics_like.people.beside import Beside
 from ssrics_like.people.markers import PEOPLE
+from ssrics_like.people.names import short
 from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.labels import legend_grid, text_half_size
 from ssrics_like.report.locations_figure import share_axis
-from ssrics_like.report.people_style import colours_of, dot, said, shapes_of, short
+from ssrics_like.report.people_style import colours_of, mark_look, name_tips, said
 from ssrics_like.report.words import place_text
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ def draw_people_locations(made: Beside) -> Drawing | None:
         row, turn = divmod(number, len(groups))
         _draw_bar(axes, made, one, row + (turn - (len(groups) - 1) / 2) * bar, bar)
     axes.set_yticks(range(len(places)), names, color=style.INK, fontsize=style.FONT_PT)
+    tips = name_tips(axes, names, [place_text(place.id, place.label) for place in places])
     axes.set_xlabel("share that marked the location, %")
     axes.legend(
         handles=handles, loc="lower left", bbox_to_anchor=(0, 1, 1, 0), borderaxespad=0.7,
@@ -61,17 +63,18 @@ def draw_people_locations(made: Beside) -> Drawing | None:
         f"Who has a mark within {made.settings.radius_m:g} m of each location: bars are shares, "
         "lines their Wilson 95 % intervals, numbers at the right how many of how many. People "
         f"stand above the models.{rest}",
+        tips,
     )
 
 
 def _draw_bar(axes: Axes, made: Beside, one: Share, at: float, bar: float) -> None:
-    colour, shape = colours_of(made)[one.group], shapes_of(made)[one.group]
+    colour = colours_of(made)[one.group]
     if math.isnan(one.share):
         return
     axes.barh(at, 100 * one.share, height=0.82 * bar, color=style.mixed(colour, 0.45), zorder=2)
     low, high = one.interval
     axes.plot([100 * low, 100 * high], [at, at], color=colour, linewidth=1.2, zorder=3)
-    axes.plot(100 * one.share, at, zorder=4, clip_on=False, **dot(colour, shape, 4.2))
+    axes.plot(100 * one.share, at, zorder=4, clip_on=False, **mark_look(made, one.group, 4.2))
     axes.annotate(
         f"{one.marked} of {one.markers}", (1, at), (10, 0), va="center_baseline",
         xycoords=("axes fraction", "data"), textcoords="offset points", fontsize=style.TINY_PT,
@@ -82,13 +85,13 @@ def _draw_bar(axes: Axes, made: Beside, one: Share, at: float, bar: float) -> No
 def _legend(made: Beside) -> list[Any]:
     from matplotlib.lines import Line2D
 
-    colours, shapes = colours_of(made), shapes_of(made)
+    colours = colours_of(made)
     groups = [(PEOPLE, len(made.people)), *((m.name, len(m.runs)) for m in made.models)]
     return [
         Line2D(
             [], [], label=said(group, count),
-            **{**dot(colours[group], shapes[group], 5.0), "linestyle": "-",
-               "color": colours[group], "linewidth": 1.2},
+            **{**mark_look(made, group), "linestyle": "-", "color": colours[group],
+               "linewidth": 1.2},
         )
         for group, count in groups
     ]  # fmt: skip

@@ -16,7 +16,7 @@ from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.frames import Frame, frame_around, show_frame
 from ssrics_like.report.labels import Room, around, text_half_size
 from ssrics_like.report.markers import draw_label
-from ssrics_like.report.people_style import colours_of, dot, said, shapes_of, short
+from ssrics_like.report.people_style import colours_of, mark_look, said
 from ssrics_like.report.plan import bounds_of, draw_plan
 from ssrics_like.report.reading import read_pictures
 from ssrics_like.report.walls import draw_walls
@@ -31,6 +31,10 @@ HEIGHTS_PT = (120.0, 520.0)
 COLUMNS = 2
 LEVELS = (0.2, 0.5, 1.0, 2.0)
 """Marks a marker that lie about a place; the lines and shades of a density."""
+LINES = 0.62
+"""Share of a model's colour in the lines of its density: marks stand out from them."""
+SIZES_PT = (2.4, 4.6)
+"""Of a mark of a run, and of a person; runs' lie over people's and leave their rims in sight."""
 CELL_PT = 1.5
 CELLS_MAX = 1_000_000
 NAMED_MAX = 40
@@ -63,10 +67,10 @@ def draw_people_map(read: Folders, made: Beside) -> Drawing:
         "map",
         figure,
         f"Map with the marks of {len(made.people)} people and of the runs of {models}",
-        "Dots: marks of people; other shapes: marks of the model's runs, where the robot was when "
-        "it perceived. Shades (people) and lines (model): their density, smoothed with a normal "
-        f"kernel of {made.settings.radius_m / 2:g} m; at the outermost one in five markers has a "
-        "mark about there, then one in two, one each, and two each. Circles of "
+        "Filled dots: marks of people; hollow shapes: marks of the model's runs, where the robot "
+        "was when it perceived. Shades (people) and lines (model): their density, smoothed with a "
+        f"normal kernel of {made.settings.radius_m / 2:g} m; at the outermost one in five markers "
+        "has a mark about there, then one in two, one each, and two each. Circles of "
         f"{made.settings.radius_m:g} m radius are the locations, drawn solid where at least half "
         "of the people marked them.",
         tips,
@@ -122,7 +126,7 @@ def _draw_panel(
     axes: Axes, frame: Frame, read: Folders, made: Beside, number: int
 ) -> dict[str, str]:
     model, radius_m = made.models[number], made.settings.radius_m
-    colours, shapes = colours_of(made), shapes_of(made)
+    colours = colours_of(made)
     if read.building is not None:
         draw_plan(axes, read.building.grid, frame, strength=0.75)
     else:
@@ -135,10 +139,9 @@ def _draw_panel(
         values = density(markers, frame, radius_m / 2, cell_m)
         _draw_density(axes, values, frame, cell_m, colours[group], filled=group == PEOPLE)
         for marker in markers:
-            size = 2.8 if group == PEOPLE else 3.0
             axes.plot(
-                *marker.xy_m.T, zorder=6 + (group != PEOPLE), alpha=0.85,
-                **{**dot(colours[group], shapes[group], size), "markeredgewidth": 0.25},
+                *marker.xy_m.T, zorder=6 + (group != PEOPLE),
+                **mark_look(made, group, SIZES_PT[group == PEOPLE]),
             )  # fmt: skip
     tips = _draw_locations(axes, frame, made, number)
     axes.legend(
@@ -162,7 +165,8 @@ def _draw_density(
         shades = [style.mixed(colour, 0.16 + 0.13 * i) for i in range(len(levels))]
         axes.contourf(x, y, values, levels=[*levels, np.inf], colors=shades, alpha=0.75, zorder=1.2)
     else:
-        axes.contour(x, y, values, levels=levels, colors=colour, linewidths=0.9, zorder=4)
+        axes.contour(x, y, values, levels=levels, colors=style.mixed(colour, LINES), linewidths=0.8,
+                     zorder=4)  # fmt: skip
 
 
 def _draw_locations(axes: Axes, frame: Frame, made: Beside, number: int) -> dict[str, str]:
@@ -197,8 +201,7 @@ def _legend(made: Beside, number: int) -> list[Any]:
     from matplotlib.lines import Line2D
 
     model = made.models[number]
-    colours, shapes = colours_of(made), shapes_of(made)
     return [
-        Line2D([], [], label=short(said(group, count)), **dot(colours[group], shapes[group], 5.5))
+        Line2D([], [], label=said(group, count), **mark_look(made, group, 5.5))
         for group, count in ((PEOPLE, len(made.people)), (model.name, len(model.runs)))
     ]

@@ -13,10 +13,11 @@ from ssrics_like.errors import ResultsError
 from ssrics_like.people.beside import Beside
 from ssrics_like.people.folders import Folders
 from ssrics_like.people.markers import PEOPLE, Marker
+from ssrics_like.people.names import short
 from ssrics_like.report import style
 from ssrics_like.report.drawing import Drawing
 from ssrics_like.report.novelty_figure import coarser
-from ssrics_like.report.people_style import colours_of, short
+from ssrics_like.report.people_style import colours_of
 from ssrics_like.report.reading import read_pictures
 from ssrics_like.report.words import clock, fraction_text
 
@@ -55,6 +56,8 @@ def draw_people_novelty(read: Folders, made: Beside) -> Drawing | None:
             )
             top_pt += part_pt + GAP_PT
         _draw(parts, read.records[number], novelty, made, number)
+    every = len(read.records)
+    rest = f" The first {SHOWN_MAX} of {every} models." if every > SHOWN_MAX else ""
     timed = any(np.isfinite(person.t_s).any() for person in made.people)
     when = "when they pressed the key, if the run was there then; else " if timed else ""
     return Drawing(
@@ -64,7 +67,7 @@ def draw_people_novelty(read: Folders, made: Beside) -> Drawing | None:
         "Novelty (1 minus the boredom quotient τ) over the first run of each model; an interval is "
         "novel at the dashed line or above. Ticks: what the run marked. Below: how many people "
         f"marked a landmark within {WINDOW_S / 2:g} s of each moment, {when}when the robot "
-        f"first came by a mark of theirs, within {made.settings.radius_m:g} m of its way.",
+        f"first came by a mark of theirs, within {made.settings.radius_m:g} m of its way.{rest}",
     )
 
 

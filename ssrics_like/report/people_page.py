@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import hashlib
 import io
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ssrics_like.people.beside import Beside
-from ssrics_like.people.definitions import DEFINITIONS
+from ssrics_like.people.definitions import TERMS, WORDS
 from ssrics_like.people.folders import Folders
 from ssrics_like.people.markers import PEOPLE
+from ssrics_like.people.names import short
+from ssrics_like.people.resampling import LEAST
 from ssrics_like.report import style
 from ssrics_like.report.drawing import HALO, as_svg
 from ssrics_like.report.people_agreement_figure import draw_people_agreement
+from ssrics_like.report.people_ceiling_figure import draw_people_ceiling
 from ssrics_like.report.people_locations_figure import draw_people_locations
 from ssrics_like.report.people_map_figure import draw_people_map
 from ssrics_like.report.people_novelty_figure import draw_people_novelty
@@ -22,10 +26,12 @@ from ssrics_like.report.people_tables import (
     location_table,
     pair_table,
     people_table,
+    people_text,
     sortable,
 )
 from ssrics_like.report.rendering import rendered
 from ssrics_like.report.words import figure_text
+from ssrics_like.results.counts import counted
 
 if TYPE_CHECKING:
     from ssrics_like.people.figures import Figure
@@ -33,17 +39,19 @@ if TYPE_CHECKING:
 
 PAGE = "comparison.html"
 PDF_METADATA = {"CreationDate": None, "Creator": None, "Producer": None}
-PAGE_PX, LEAST_PX = 1040.0, 640.0
-"""Width of a figure on the page, and the least to which it is shrunk (page.css)."""
+PAGE_PX, LEAST_PX, PHONE_PX = 1040.0, 640.0, 330.0
+"""Width of a figure on the page, the least to which it is shrunk (page.css), and of a phone's."""
 NOTHING = {
     "map": "",
     "locations": "There is no location, neither labelled nor found.",
+    "ceiling": "Of a single person there are no others to hold anybody against.",
     "agreement": "There is a single marker, and so no pair.",
     "novelty": "No results folder holds the novelty of its runs.",
 }
 HEADINGS = {
     "map": "Where people and robots marked landmarks",
     "locations": "Location by location",
+    "ceiling": "Where robots stand among people",
     "agreement": "Who agrees with whom",
     "novelty": "Novelty along the route",
 }
@@ -65,6 +73,7 @@ def page_and_figures(read: Folders, made: Beside) -> dict[str, str | bytes]:
         drawings: dict[str, Drawing | None] = {
             "map": draw_people_map(read, made),
             "locations": draw_people_locations(made),
+            "ceiling": draw_people_ceiling(made),
             "agreement": draw_people_agreement(made),
             "novelty": draw_people_novelty(read, made),
         }
@@ -76,6 +85,7 @@ def page_and_figures(read: Folders, made: Beside) -> dict[str, str | bytes]:
             sections[name] = {
                 "heading": HEADINGS[name],
                 "svg": _at_scale(svg, drawing) if drawing else "",
+                "wide": drawing is not None and _width_px(drawing) > PHONE_PX,
                 "caption": drawing.caption if drawing else "",
                 "otherwise": NOTHING[name],
             }
@@ -86,10 +96,8 @@ def page_and_figures(read: Folders, made: Beside) -> dict[str, str | bytes]:
 def sources_of(read: Folders) -> dict[str, Any]:
     """Return what was read, with the digest of the choices, as it stands in comparison.json."""
     return {
-        "choices": {
-            "file": read.choices.name,
-            "sha256": hashlib.sha256(read.choices.read_bytes()).hexdigest(),
-        },
+        "choices": _named(read.choices),
+        "participants": _listed(read),
         "models": [
             {
                 "model": model.name,
@@ -103,13 +111,31 @@ def sources_of(read: Folders) -> dict[str, Any]:
     }
 
 
+def _named(file: Path) -> dict[str, Any]:
+    return {"file": file.name, "sha256": hashlib.sha256(file.read_bytes()).hexdigest()}
+
+
+def _listed(read: Folders) -> dict[str, Any] | None:
+    if read.listed is None:
+        return None
+    return {
+        **_named(read.listed.file),
+        "marked_nothing": list(read.listed.silent),
+        "unfinished": read.listed.unfinished,
+    }
+
+
 def _at_scale(svg: str, drawing: Drawing) -> str:
     """Keep a figure that is narrower than the page from being blown up to its width."""
-    width_px = PAGE_PX * drawing.figure.get_size_inches()[0] / style.WIDTH_IN
+    width_px = _width_px(drawing)
     if width_px >= PAGE_PX:
         return svg
     limits = f"max-width: {width_px:.0f}px; min-width: {min(LEAST_PX, width_px):.0f}px; "
     return svg.replace('style="', f'style="{limits}', 1)
+
+
+def _width_px(drawing: Drawing) -> float:
+    return PAGE_PX * float(drawing.figure.get_size_inches()[0]) / style.WIDTH_IN
 
 
 def _pdf(drawing: Drawing) -> bytes:
@@ -133,6 +159,7 @@ def _content(read: Folders, made: Beside) -> dict[str, Any]:
     locations, bins = len(made.units.location_of), len(made.units.bins_m)
     facts = [
         ("people's choices", read.choices.name),
+        ("list of participants", _list_of(read)),
         ("radius", f"{settings.radius_m:g} m"),
         ("bin of the route", f"{settings.bin_m:g} m"),
         ("units", f"{len(made.units)}: {locations} locations and {bins} bins of the route"),
@@ -142,28 +169,43 @@ def _content(read: Folders, made: Beside) -> dict[str, Any]:
     ]
     return {
         "title": f"People and robots on {where}",
-        "people": len(made.people),
-        "models": [(model.name, len(model.runs)) for model in made.models],
+        "people": people_text(made),
+        "models": [
+            (short(model.name), model.name, counted(len(model.runs), "run"))
+            for model in made.models
+        ],
         "notes": made.notes,
         "cards": _cards(made),
         "locations": sortable(location_table(made)),
         "figures": sortable(figure_table(made)),
         "pairs": sortable(pair_table(made)),
         "participants": sortable(people_table(made)),
-        "definitions": DEFINITIONS,
+        "words": [(term, text) for term, text in TERMS.items() if term in WORDS],
+        "definitions": [(term, text) for term, text in TERMS.items() if term not in WORDS],
         "facts": facts,
+        "has_intervals": len(made.people) >= LEAST,
     }
 
 
+def _list_of(read: Folders) -> str:
+    if read.listed is None:
+        return "none; whoever marked nothing is not counted"
+    silent, unfinished = len(read.listed.silent), read.listed.unfinished
+    return (
+        f"{read.listed.file.name}; {silent} finished and marked nothing, {unfinished} neither "
+        "finished nor marked anything and are not counted"
+    )
+
+
 def _cards(made: Beside) -> list[tuple[str, str, str, bool]]:
-    """Return the figures at the top: what, how much, a note, and whether it stands out."""
+    """Return the figures at the top: what, how much, its interval, and whether it stands out."""
     people = made.figures[PEOPLE]
     cards = [
         ("Krippendorff's α of people", *_split(people["alpha"]), False),
-        ("F of people, the ceiling", *_split(people["f_others"]), False),
+        ("F of people: the ceiling", *_split(people["f_others"]), False),
     ]
     cards += [
-        (f"F of {model.name}", *_split(made.figures[model.name]["f_others"]), True)
+        (f"F of {short(model.name)}", *_split(made.figures[model.name]["f_others"]), True)
         for model in made.models
     ]
     return cards

@@ -7,9 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ssrics_like.people.beside import Beside
+from ssrics_like.people.definitions import CONSENSUS, EACH, FIGURES
 from ssrics_like.people.figures import Figure
 from ssrics_like.people.markers import PEOPLE
+from ssrics_like.people.names import NAME_MAX, short
 from ssrics_like.people.pairs import LOCATIONS
+from ssrics_like.people.resampling import LEAST
 from ssrics_like.report.words import (
     figure_text,
     interval_text,
@@ -18,35 +21,16 @@ from ssrics_like.report.words import (
     place_text,
 )
 
-Cell = tuple[str, str, str]
-"""What is read, what is sorted by, and the class of the cell."""
+Cell = tuple[str, str, str, str]
+"""What is read, what is sorted by, the class of the cell, and all of a name that is shortened."""
 
-FIGURES = (
-    ("precision", "precision, consensus"),
-    ("recall", "recall, consensus"),
-    ("f", "F, consensus"),
-    ("f_chance", "F of chance"),
-    ("f_corrected", "F above chance"),
-    ("kappa", "κ with consensus"),
-    ("d_prime", "d′, consensus"),
-    ("criterion", "criterion c"),
-    ("kappa_people", "κ with each person"),
-    ("kappa_people_median", "κ with each person, median"),
-    ("fleiss", "Fleiss' κ, people (and run)"),
-    ("alpha", "Krippendorff's α, likewise"),
-    ("consistency", "κ among runs"),
-    ("f_others", "F, others' consensus"),
-    ("f_ceiling", "F less a person's"),
-    ("f_exceeds", "people exceeded in F"),
-    ("kappa_others", "κ, others' consensus"),
-    ("kappa_ceiling", "κ less a person's"),
-    ("kappa_exceeds", "people exceeded in κ"),
-    ("d_prime_others", "d′, others' consensus"),
-    ("criterion_others", "criterion c, others' consensus"),
-)
-"""Every figure in the order of the tables, and what it is called there."""
+ROW_MAX = 48
+"""The first column has room for so many letters."""
 SHARES = ("f_exceeds", "kappa_exceeds")
-MEASURES = {"f": "F with each person", "kappa": "κ with each person", LOCATIONS: "locations right"}
+MEASURES = {
+    "f": ("F", EACH), "kappa": ("κ", EACH), LOCATIONS: ("locations right", CONSENSUS),
+}  # fmt: skip
+"""How two models are compared -> what is compared, and against what."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +41,8 @@ class Listing:
     ----------
     title : str
         What it shows.
-    headings : tuple of str
-        Of its columns.
+    headings : tuple of (str, str)
+        Of its columns; and all of a name that is shortened.
     words : int
         So many columns hold words, the others numbers.
     rows : list of list of Cell
@@ -66,7 +50,7 @@ class Listing:
     """
 
     title: str
-    headings: tuple[str, ...]
+    headings: tuple[tuple[str, str], ...]
     words: int
     rows: list[list[Cell]]
 
@@ -94,12 +78,12 @@ def location_table(made: Beside) -> Listing:
                 _word(agreed.get(place.id, "off the route")),
             ],
         )
-        text = f"{one.marked}/{one.markers}  {interval_text(one.interval)}"
+        text = f"{one.marked}/{one.markers}  [{interval_text(one.interval)}]"
         row.append(_number(text, one.share))
     return Listing(
         f"Locations, within {made.settings.radius_m:g} m: who marked them, with the Wilson 95 % "
         "interval",
-        ("location", "kind", "consensus", *groups),
+        _headings("location", "kind", CONSENSUS, *groups),
         3,
         list(rows.values()),
     )
@@ -110,36 +94,39 @@ def figure_table(made: Beside) -> Listing:
     groups = (PEOPLE, *(model.name for model in made.models))
     rows = [
         [
-            _name(said, said),
+            _name(row.term),
+            _word(row.against),
             *(
-                _figure(made.figures[group].get(name, Figure()), share=name in SHARES)
+                _figure(made.figures[group].get(row.key, Figure()), share=row.key in SHARES)
                 for group in groups
             ),
         ]
-        for name, said in FIGURES
+        for row in FIGURES
     ]
-    return Listing("Agreement, with 95 % intervals", ("figure", *groups), 1, rows)
+    title = "Agreement, with 95 % intervals" if len(made.people) >= LEAST else "Agreement"
+    return Listing(title, _headings("figure", "against", *groups), 2, rows)
 
 
 def pair_table(made: Beside) -> Listing:
     """Return every two models compared on the same people."""
     rows = [
         [
-            _name(pair.first, pair.first),
+            _name(pair.first),
             _word(pair.second),
-            _word(MEASURES[pair.measure]),
+            *(_word(text) for text in MEASURES[pair.measure]),
             _figure(pair.difference, signed=True),
-            _number(p_text(pair.p), pair.p),
-            _number(p_text(pair.p_holm), pair.p_holm),
+            *(_number(p_text(p), p) for p in (pair.p, pair.p_runs, pair.p_holm)),
         ]
         for pair in made.pairs
     ]
-    headings = ("first", "second", "measure", "first less second", "p", "p, Holm")
-    return Listing("Models compared on the same people", headings, 3, rows)
+    headings = _headings(
+        "first", "second", "figure", "against", "first less second", "p", "p over runs", "p, Holm"
+    )
+    return Listing("Models compared on the same people", headings, 4, rows)
 
 
 def people_table(made: Beside) -> Listing:
-    """Return each participant against the consensus of the others, and each model against it."""
+    """Return each participant against the others' consensus."""
     own = made.crowd.against_others
     names = ("precision", "recall", "f", "kappa", "d_prime", "criterion")
     rows = []
@@ -147,13 +134,15 @@ def people_table(made: Beside) -> Listing:
         values = [float(own.measure(name)[i]) for name in names]
         rows.append(
             [
-                _name(person.name, person.name),
+                _name(person.name),
                 _number(str(len(person)), len(person)),
                 *(_number(figure_text(value), value) for value in values),
             ]
         )
-    headings = ("participant", "marks", "precision", "recall", "F", "κ", "d′", "criterion c")
-    return Listing("Each participant against the consensus of the others", headings, 1, rows)
+    headings = _headings(
+        "participant", "marks", "precision", "recall", "F", "κ", "d′", "criterion c"
+    )  # fmt: skip
+    return Listing("Each participant, against others' consensus", headings, 1, rows)
 
 
 def p_text(p: float) -> str:
@@ -183,22 +172,35 @@ def _figure(figure: Figure, *, share: bool = False, signed: bool = False) -> Cel
     return _number(figure_with_interval(figure, share=share, signed=signed), figure.value)
 
 
-def _name(text: str, key: str) -> Cell:
-    return text, key, "name"
+def _headings(*names: str) -> tuple[tuple[str, str], ...]:
+    return tuple((short(name), _whole(name)) for name in names)
+
+
+def _name(text: str, key: str = "") -> Cell:
+    return short(text, ROW_MAX), key or text, "name", _whole(text, ROW_MAX)
 
 
 def _word(text: str) -> Cell:
-    return text, text, "word"
+    return short(text), text, "word", _whole(text)
 
 
 def _number(text: str, value: float) -> Cell:
-    return text, "-inf" if math.isnan(value) else repr(float(value)), "number"
+    return text, "-inf" if math.isnan(value) else repr(float(value)), "number", ""
 
 
-def sortable(listing: Listing) -> dict[str, Sequence[object]]:
+def _whole(name: str, most: int = NAME_MAX) -> str:
+    """Return a name that is too long to be shown; nothing for one that is shown whole."""
+    return "" if short(name, most) == name else name
+
+
+def sortable(listing: Listing) -> dict[str, Sequence[object] | int]:
     """Return a table as the templates take it."""
-    return {
-        "headings": listing.headings,
-        "words": listing.words,  # type: ignore[dict-item]
-        "rows": [{"cells": row, "link": "", "nearest": False} for row in listing.rows],
-    }
+    rows = [{"cells": row, "link": "", "nearest": False} for row in listing.rows]
+    return {"headings": listing.headings, "words": listing.words, "rows": rows}
+
+
+def people_text(made: Beside) -> str:
+    """Return how many people there are, and how many of them marked nothing."""
+    count, silent = len(made.people), sum(len(person) == 0 for person in made.people)
+    text = f"{count} {PEOPLE}" if count > 1 else "1 person"
+    return f"{text}, {silent} of whom marked nothing" if silent else text
