@@ -70,9 +70,7 @@ def logged(log: Path, labels: Path | None) -> str:
     """Tell how far the path integration of a real robot went astray."""
     observations = list(open_log(log))
     egomotion = Egomotion()
-    matched = [
-        egomotion.update(o.pose, o.scan.bearings_rad, o.scan.ranges_m) for o in observations
-    ]
+    matched = [egomotion.update(o.pose, o.scan.bearings_rad, o.scan.ranges_m) for o in observations]
     said = f"{log.name}: carried {egomotion.carried} times in {len(observations)} scans"
     if labels is None:
         return said
