@@ -16,7 +16,7 @@ from ssrics_like.training.augmentation import augmented, key_frames
 from ssrics_like.training.drives import TrainingDrive, travelled
 from ssrics_like.training.examples import Example, described, example
 from ssrics_like.training.labels import labels
-from ssrics_like.training.pool import in_order
+from ssrics_like.workers import in_order
 
 DOORS, OTHERS = np.array([[3.0, 1.5]]), np.array([[5.0, 1.5]])
 

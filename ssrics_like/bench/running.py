@@ -16,7 +16,7 @@ from ssrics_like.comparison.agreement import consistency
 from ssrics_like.comparison.proportions import harmonic_mean, share
 from ssrics_like.comparison.tally import Tally, pooled
 from ssrics_like.designators import designate
-from ssrics_like.training.pool import in_order
+from ssrics_like.workers import in_order
 
 if TYPE_CHECKING:
     from ssrics_like.bench.candidates import Candidate

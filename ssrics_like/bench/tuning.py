@@ -19,7 +19,7 @@ from ssrics_like.comparison.tally import pooled
 from ssrics_like.designators import ScanModel, designator_kind, train, trials
 from ssrics_like.designators.optional import optional
 from ssrics_like.designators.path import Steps
-from ssrics_like.training.pool import in_order
+from ssrics_like.workers import in_order
 
 if TYPE_CHECKING:
     from ssrics_like.bench.settings import BenchSettings

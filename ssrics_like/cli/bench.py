@@ -82,7 +82,7 @@ def bench(
     from ssrics_like.bench.outputs import write_bench
     from ssrics_like.bench.running import run_bench
     from ssrics_like.errors import SettingsError
-    from ssrics_like.scenarios.pool import cores
+    from ssrics_like.workers import cores
 
     if tuned is not None and tuning is not None:
         raise SettingsError("--tuning tunes anew, --tuned does not: one of them")

@@ -51,9 +51,9 @@ def execute_variants(
 ) -> None:
     """Carry all variants of a scenario out and report on each, and on them together."""
     from ssrics_like.report import write_report, write_variants_report
-    from ssrics_like.scenarios.pool import over_processes
     from ssrics_like.scenarios.runner import drive_key
     from ssrics_like.scenarios.variants import run_variants
+    from ssrics_like.workers import in_order
 
     runs = sum({drive_key(each): each.scenario.runs for _, each in resolved}.values())
     with _watched(f"{len(resolved)} variants", runs, out, quiet=quiet) as watch:
@@ -61,7 +61,8 @@ def execute_variants(
     folders = [out / variant.name for variant, _ in resolved]
     with progress_bar(quiet=quiet) as bar:
         task = bar.add_task("reports", total=len(folders))
-        over_processes(write_report, folders, jobs, lambda: bar.advance(task))
+        for _ in in_order(write_report, folders, jobs):
+            bar.advance(task)
     page = write_variants_report(out)
     if not quiet:
         print_variants(out, manifests)

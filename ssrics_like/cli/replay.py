@@ -72,9 +72,9 @@ def replay(
         Print nothing but errors.
     """
     from ssrics_like.cli.execute import execute
-    from ssrics_like.scenarios.pool import cores
     from ssrics_like.scenarios.resolving import resolve
     from ssrics_like.scenarios.schema import make_scenario
+    from ssrics_like.workers import cores
 
     scenario = make_scenario(
         {

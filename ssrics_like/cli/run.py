@@ -53,10 +53,10 @@ def run(
     from ssrics_like import library
     from ssrics_like.cli.execute import execute, execute_variants
     from ssrics_like.scenarios.checking import expect_scenario
-    from ssrics_like.scenarios.pool import cores
     from ssrics_like.scenarios.resolving import resolve
     from ssrics_like.scenarios.schema import read_scenario
     from ssrics_like.scenarios.variants import resolve_variants
+    from ssrics_like.workers import cores
 
     path = library.find("scenarios", scenario)
     expect_scenario(path)

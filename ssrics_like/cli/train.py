@@ -63,7 +63,7 @@ def train(
     quiet
         Print nothing but errors.
     """
-    from ssrics_like.scenarios.pool import cores
+    from ssrics_like.workers import cores
 
     settings = _checked(
         {"buildings": buildings, "held_out": held_out, "seed": seed, "repeats": repeats}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
-from ssrics_like.training.pool import in_order
+from ssrics_like.workers import in_order
 
 Asked = TypeVar("Asked")
 Made = TypeVar("Made")
