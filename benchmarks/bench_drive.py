@@ -146,7 +146,7 @@ def whole_command(runs: int, jobs: int) -> tuple[float, float]:
     with tempfile.TemporaryDirectory() as place:
         out = Path(place) / "out"
         command = [
-            sys.executable, "-m", "ssrics_like.cli", "run", "complex", "--runs", str(runs),
+            sys.executable, "-m", "ssrics_like", "run", "complex", "--runs", str(runs),
             "--jobs", str(jobs), "--out", str(out), "--quiet",
         ]  # fmt: skip
         start = time.perf_counter()

@@ -33,7 +33,7 @@ PAUSE_S = 0.5  # between two responses of a person: faster than anybody clicks f
 
 def started(folder: Path, database: str, port: int = 0) -> tuple[subprocess.Popen[str], str]:
     """Start a server and return it and its address."""
-    command = [sys.executable, "-u", "-m", "ssrics_like.cli", "study", "serve"]
+    command = [sys.executable, "-u", "-m", "ssrics_like", "study", "serve"]
     command += [str(folder / "load.yaml"), "--database", database, "--port", str(port)]
     command += ["--admin-token", TOKEN]
     server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)

@@ -45,7 +45,7 @@ def end(page: Page) -> None:
         "async () => { const state = await (await fetch('/api/state')).json();"
         " await fetch('/api/responses', {method: 'POST', headers: {'Content-Type':"
         " 'application/json'}, body: JSON.stringify({key: `picture-${state.step}`, step:"
-        " state.step, event: 'end', t_ms: 0, client_ms: 0})}); }"
+        " state.step, event: 'end', replay_ms: state.length_ms, t_ms: 0, client_ms: 0})}); }"
     )
     page.reload()
 
@@ -122,7 +122,7 @@ def main() -> None:
     parser.add_argument("--all", type=Path, help="folder for pictures of every page")
     every: Path | None = parser.parse_args().all
     with tempfile.TemporaryDirectory() as place:
-        command = [sys.executable, "-u", "-m", "ssrics_like.cli", "study", "serve", "complex"]
+        command = [sys.executable, "-u", "-m", "ssrics_like", "study", "serve", "complex"]
         command += ["--port", "0", "--database", f"{place}/answers.sqlite", "--admin-token", TOKEN]
         server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         try:

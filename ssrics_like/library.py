@@ -16,6 +16,7 @@ FOLDERS = {
     "memory": "memory",
     "scenarios": "scenarios",
     "robots": "scenarios/robots",
+    "studies": "scenarios/studies",
 }
 """Kind of entry -> where its files are."""
 

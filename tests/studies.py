@@ -9,6 +9,10 @@ from pathlib import Path
 
 import httpx
 
+from ssrics_like.study.app import make_app
+from ssrics_like.study.conduct import Conduct
+from ssrics_like.study.store import Store
+
 TOKEN = "a-token-for-tests-only"
 
 STUDY = """\
@@ -78,7 +82,10 @@ class Client:
         return self.post("/api/responses", said)
 
     def go_to(self, trial_step):
-        while self.state()["step"] < trial_step:
+        while (state := self.state())["step"] < trial_step:
+            if state["kind"] == "walk":  # it has been shown to its end
+                said = {"step": state["step"], "replay_ms": state["length_ms"]}
+                assert self.post("/api/progress", said).status_code == 200
             assert self.send("end").status_code == 200
         return self
 
@@ -86,8 +93,25 @@ class Client:
         self._runner.run(self._client.aclose())
 
 
-def runner():
-    return asyncio.Runner()
+class World:
+    """A study that is being served, and its clients."""
+
+    def __init__(self, study, folder):
+        self.database = folder / "answers.sqlite"
+        self.store = Store(str(self.database))
+        self.app = make_app(Conduct(study, self.store), TOKEN)
+        self.runner = asyncio.Runner()
+        self.clients = []
+
+    def client(self):
+        self.clients.append(Client(self.app, self.runner))
+        return self.clients[-1]
+
+    def close(self):
+        for client in self.clients:
+            client.close()
+        self.runner.close()
+        self.store.close()
 
 
 class Server:
@@ -98,7 +122,7 @@ class Server:
         self.start()
 
     def start(self, port=0):
-        command = [sys.executable, "-m", "ssrics_like.cli", *self.arguments]
+        command = [sys.executable, "-m", "ssrics_like", *self.arguments]
         command += ["--port", str(port), "--admin-token", TOKEN]
         self.process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,

@@ -271,7 +271,7 @@ def test_version(capsys):
 
 
 def test_a_closed_pipe_is_no_error(tmp_path):
-    command = f"{sys.executable} -m ssrics_like.cli show productions landmark | head -1"
+    command = f"{sys.executable} -m ssrics_like show productions landmark | head -1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
     assert done.stderr == ""
     assert len(done.stdout.splitlines()) == 1
@@ -280,7 +280,7 @@ def test_a_closed_pipe_is_no_error(tmp_path):
 def test_ctrl_c_ends_with_status_130_and_one_line(tmp_path):
     process = subprocess.Popen(
         [
-            sys.executable, "-m", "ssrics_like.cli", "replay", str(DEMO), "--runs", "500",
+            sys.executable, "-m", "ssrics_like", "replay", str(DEMO), "--runs", "500",
             "-o", str(tmp_path / "out"),
         ],
         stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True,

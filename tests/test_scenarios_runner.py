@@ -226,7 +226,7 @@ def test_ctrl_c_with_two_jobs_stops_all_processes_with_one_line(folder, tmp_path
     out = tmp_path / "out"
     process = subprocess.Popen(
         [
-            sys.executable, "-m", "ssrics_like.cli", "run", str(folder / "scenario.yaml"),
+            sys.executable, "-m", "ssrics_like", "run", str(folder / "scenario.yaml"),
             "-n", "200", "--jobs", "2", "-o", str(out),
         ],
         stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, start_new_session=True,

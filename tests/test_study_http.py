@@ -7,13 +7,10 @@ import zipfile
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from studies import STUDY, TOKEN, Client, runner, write_study
+from studies import STUDY, TOKEN, World, write_study
 
 from ssrics_like.study import read_study
-from ssrics_like.study.app import make_app
-from ssrics_like.study.conduct import Conduct
 from ssrics_like.study.security import BODY_MAX
-from ssrics_like.study.store import Store
 
 BEARER = {"Authorization": f"Bearer {TOKEN}"}
 
@@ -21,26 +18,6 @@ BEARER = {"Authorization": f"Bearer {TOKEN}"}
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
     return read_study(write_study(tmp_path_factory.mktemp("study")))
-
-
-class World:
-    """A study that is being served, and its clients."""
-
-    def __init__(self, study, folder):
-        self.store = Store(str(folder / "answers.sqlite"))
-        self.app = make_app(Conduct(study, self.store), TOKEN)
-        self.runner = runner()
-        self.clients = []
-
-    def client(self):
-        self.clients.append(Client(self.app, self.runner))
-        return self.clients[-1]
-
-    def close(self):
-        for client in self.clients:
-            client.close()
-        self.runner.close()
-        self.store.close()
 
 
 @pytest.fixture

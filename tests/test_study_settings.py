@@ -7,9 +7,11 @@ import re
 import pytest
 from studies import STUDY, write_study
 
+from ssrics_like.cli import main
 from ssrics_like.errors import LibraryError, SettingsError
 from ssrics_like.library import folder
 from ssrics_like.maps import load_building, save_building
+from ssrics_like.scenarios.checking import STUDY_KEYS
 from ssrics_like.study import read_study
 from ssrics_like.study.reading import study_file
 from ssrics_like.study.texts import html_of
@@ -30,6 +32,10 @@ def complaint(tmp_path, text):
         ("kind: plan, map: simple, question: Mark", "kind: plam, map: simple, question: Mark",
          "trials.0.kind: 'plam' where 'plan', 'walk' or 'attention' was expected; did you mean"),
         ("id: plan", "id: try", "small.yaml:9:6: trials.0.id: 'try' stands twice (first in line 7)"),
+        ("id: plan", "id: Try", "trials.0.id: 'Try' names the same files as 'try' in line 7 where"),
+        ("id: plan", "id: instructions",
+         "trials.0.id: 'instructions': is what the step before the first trial is called"),
+        ("id: plan", "id: Instructions", "is what the step before the first trial is called"),
         ("id: plan", "id: ../x", "trials.0.id: '../x': expected up to 40 letters"),
         ("kind: plan, map: simple, question: Mark", "kind: plan, question: Mark",
          "trials.0: a trial of the kind plan needs map"),
@@ -102,10 +108,11 @@ def test_positions_in_the_frame_of_the_map_will_do(tmp_path):
     [
         ("1,10", "2,10", "has no run 1; the runs are 0, 2"),
         ("9,1.1,3.1", ",,", "run 1 has no positions in the frame of the map, only of odometry"),
-        ("1.1,3.1", "1.1,x", "path.csv: is damaged: "),
+        ("1.1,3.1", "1.1,x", "path.csv:3: is damaged: expected a number in each column"),
+        ("1,10.5", "1", "path.csv:4: is damaged: expected a number in each column"),
         ("1,10.5", "1,9", "the route is damaged: times do not rise"),
         ("9.5,1.1,-3.1", "0.05,1.1,0", "leads through (0.05, 1.10), which is not free on the map"),
-        ("run,", "rum,", "path.csv: is damaged: KeyError('run')"),
+        ("run,", "rum,", "path.csv: is damaged: it lacks the column 'run'"),
     ],
 )
 def test_a_run_that_cannot_be_replayed_is_told(tmp_path, old, new, said):
@@ -156,3 +163,23 @@ def test_a_text_makes_no_script_and_no_request(markdown):
     shown = html_of(markdown)
     assert "<img" not in shown
     assert 'href="javascript' not in shown
+
+
+def command(capsys, *arguments):
+    with pytest.raises(SystemExit) as stop:
+        main([str(each) for each in arguments])
+    return (stop.value.code, *capsys.readouterr())
+
+
+def test_check_list_and_schema_know_studies(tmp_path, capsys):
+    path = write_study(tmp_path)
+    said = f"{path}: ok: study, 'A small study', 3 trials, 1 of practice\n"
+    assert command(capsys, "check", path) == (0, said, "")
+    path.write_text(STUDY.replace("order: fixed", "order: fixt"))
+    status, _, complaint = command(capsys, "check", path)
+    assert (status, len(complaint.splitlines())) == (1, 1)
+    assert "small.yaml:4:1: order: 'fixt' where" in complaint
+    assert "is a study, expected a scenario" in command(capsys, "run", path, "-o", tmp_path)[2]
+    assert command(capsys, "list", "studies")[1] == "studies/\n  complex  Landmarks in a building\n"
+    keys = set(json.loads(command(capsys, "schema", "study")[1])["properties"])
+    assert keys - {"title", "seed"} == STUDY_KEYS

@@ -165,7 +165,7 @@ def test_sqlite_writes_ahead_and_to_the_disk(tmp_path):
     ("name", "said"),
     [
         ("{tmp}/none/a.sqlite", "none: no such folder"),
-        ("{tmp}", "the database cannot be used"),
+        ("{tmp}", "is a folder"),
         ("{tmp}/text.sqlite", "the database cannot be used \\(file is not a database\\)"),
         ("sqlite://", "SQLite needs a file"),
         ("nosuch://host/x", "no driver for 'nosuch'"),

@@ -117,7 +117,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         status = 0
     except OSError as error:  # the disk is full, a file may not be read: nothing we can mend
-        _complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+        said = error.strerror or str(error)
+        _complain(f"{error.filename}: {said}" if error.filename else said)
         status = USER_ERROR
     except KeyboardInterrupt as stop:
         _complain(": ".join(["interrupted", *map(str, stop.args)]))

@@ -14,7 +14,7 @@ def list_entries(kind: str | None = None) -> None:
     Parameters
     ----------
     kind
-        Only one kind: productions, perception, memory, scenarios or robots.
+        Only one kind: productions, perception, memory, scenarios, robots or studies.
     """
     from ssrics_like import library, settings
 
@@ -39,7 +39,7 @@ def show(kind: str, name: str) -> None:
     Parameters
     ----------
     kind
-        productions, perception, memory, scenarios or robots.
+        productions, perception, memory, scenarios, robots or studies.
     name
         The entry.
     """

@@ -13,10 +13,11 @@ def schema(kind: str) -> None:
     Parameters
     ----------
     kind
-        scenario, perception, memory, productions or plan.
+        scenario, perception, memory, productions, robot, plan or study.
     """
     import json
 
     from ssrics_like.scenarios.checking import json_schema
+    from ssrics_like.study.settings import StudySettings
 
-    print(json.dumps(json_schema(kind), indent=2))
+    print(json.dumps(json_schema(kind, StudySettings), indent=2))

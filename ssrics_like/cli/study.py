@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ssrics_like.cli.options import Columns, Flag, NeededOut, Out, Pair, Trials, Whole
-
-if TYPE_CHECKING:
-    from ssrics_like.study.store import Store
 
 DATABASE = ".sqlite"
 BESIDE = ".token"  # ending of the file that keeps the admin token
 PORT_MAX = 65_535
+OPEN = (
+    "ssrics: warning: {host} can be reached from other machines, over plain HTTP; put a server "
+    "with TLS before it outside of a network that you trust"
+)
 
 
 def new(name: str, *, out: Out = None) -> None:
@@ -86,8 +86,9 @@ def serve(
         needed(package)
     from ssrics_like.study.app import make_app
     from ssrics_like.study.conduct import Conduct
-    from ssrics_like.study.serving import address_of, bound, is_loopback
+    from ssrics_like.study.serving import address_of, bound, is_loopback, until_interrupted
     from ssrics_like.study.serving import serve as serve_app
+    from ssrics_like.study.store import Store
 
     if not 0 <= port <= PORT_MAX:
         raise StudyError(f"--port {port}: expected 0 to {PORT_MAX}")
@@ -98,22 +99,20 @@ def serve(
     name = database or path.stem + DATABASE
     listening = bound(host, port)
     try:
-        store = _opened(name)
+        store = Store(name)
         try:
             conduct = Conduct(content, store)
             token = admin_token or _token_beside(name, path)
-            address = address_of(listening, host)
-            suffix = "?pid=ID" if content.settings.participant == "url" else ""
-            print(f"participants: {address}{suffix}")
-            print(f"experimenter: {address}admin#token={token}")
-            print(f"answers:      {store.name}", flush=True)
-            if not is_loopback(host):
-                print(
-                    f"ssrics: warning: {host} can be reached from other machines, over plain HTTP; "
-                    "put a server with TLS before it outside of a network that you trust",
-                    file=sys.stderr,
-                )
-            serve_app(make_app(conduct, token), listening)
+            app = make_app(conduct, token)
+            with until_interrupted():
+                address = address_of(listening, host)
+                suffix = "?pid=ID" if content.settings.participant == "url" else ""
+                print(f"participants: {address}{suffix}")
+                print(f"experimenter: {address}admin#token={token}")
+                print(f"answers:      {store.name}", flush=True)
+                if not is_loopback(host):
+                    print(OPEN.format(host=host), file=sys.stderr)
+                serve_app(app, listening)
         finally:
             store.close()
     finally:
@@ -141,29 +140,33 @@ def export(answers: str, *, out: NeededOut, trial: Trials = (), finished: Flag =
         Only people who did the whole study.
     """
     from ssrics_like.errors import StudyError
+    from ssrics_like.results.counts import counted
     from ssrics_like.results.files import write_atomically
     from ssrics_like.study.packages import needed
 
     needed("sqlalchemy")
     from ssrics_like.study.export import read_answers, tables_of
+    from ssrics_like.study.records import Records
 
-    store = _opened(_database_of(answers))
+    records = Records(_database_of(answers))
     try:
-        found = read_answers(store)
-        if finished:
-            found = found.of_finished()
-        tables = tables_of(found, trial)
+        with records.complaining():
+            found = read_answers(records)
     finally:
-        store.close()
+        records.close()
+    if finished:
+        found = found.of_finished()
+    tables = tables_of(found, trial)
     if out.exists() and not out.is_dir():
         raise StudyError(f"{out}: is a file, expected a folder")
     out.mkdir(parents=True, exist_ok=True)
     for name, text in tables.items():
         write_atomically(out / name, text)
     people, done = len(found.participants), sum(p.is_done for p in found.participants)
-    print(f"{out}: {people} participants, {done} finished, {len(found.responses)} responses")
+    said = counted(people, "participant"), counted(len(found.responses), "response")
+    print(f"{out}: {said[0]}, {done} finished, {said[1]}")
     for name, text in tables.items():
-        print(f"{out / name}: {text.count(chr(10)) - 1} rows")
+        print(f"{out / name}: {counted(_rows(text), 'row')}")
     if "choices.csv" not in tables:
         print("no choices.csv: the trials are on different maps; choose with --trial")
 
@@ -206,6 +209,7 @@ def import_choices(
     import math
 
     from ssrics_like.errors import StudyError
+    from ssrics_like.results.counts import counted
     from ssrics_like.results.files import write_atomically
     from ssrics_like.study.importing import Units, imported, read_mapping
 
@@ -229,7 +233,15 @@ def import_choices(
     units = Units(*scale, *offset, scale_t=0.001 if milliseconds else 1.0)
     text = imported(file, mapping, units, pixels)
     write_atomically(out, text)
-    print(f"{out}: {text.count(chr(10)) - 1} choices")
+    print(f"{out}: {counted(_rows(text), 'choice')}")
+
+
+def _rows(table: str) -> int:
+    """Count the rows of a table below its header; a cell may hold several lines."""
+    import csv
+    import io
+
+    return sum(1 for _ in csv.reader(io.StringIO(table, newline=""))) - 1
 
 
 def _token_beside(database: str, study: Path) -> str:
@@ -257,9 +269,3 @@ def _database_of(answers: str) -> str:
         if not path.is_file():
             raise StudyError(f"{path}: no such file; name the database that serve was given")
     return str(path)
-
-
-def _opened(name: str) -> Store:
-    from ssrics_like.study.store import Store
-
-    return Store(name)

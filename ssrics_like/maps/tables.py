@@ -5,11 +5,15 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
+import unicodedata
 from collections.abc import Sequence
 from pathlib import Path
 
 from ssrics_like.errors import MapError, nearest
 from ssrics_like.maps.names import misspelt
+
+NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
 
 class Table:
@@ -99,10 +103,8 @@ class Table:
     def number(self, line: int, cells: dict[str, str], column: str) -> float:
         """Return a cell as a number; NaN, and a problem noted, where it is none."""
         text = cells[column]
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
+        # Stricter than Python: no `1_0`, no digits of other scripts.
+        value = float(text) if NUMBER.fullmatch(text) else math.nan
         if not math.isfinite(value):
             shown = repr(text) if text else "nothing"
             self.problems.append(
@@ -112,10 +114,15 @@ class Table:
         return value
 
     def word(self, line: int, cells: dict[str, str], column: str) -> str:
-        """Return a cell that must not be empty; a problem is noted where it is."""
-        if not cells[column]:
+        """Return a cell that must be a line of text; a problem is noted where it is none."""
+        text = cells[column]
+        if not text:
             self.problems.append(f"{self.path}:{line}: {column}: is empty")
-        return cells[column]
+        if any(unicodedata.category(letter) == "Cc" for letter in text):
+            self.problems.append(
+                f"{self.path}:{line}: {column}: {text!r:.60} has control characters"
+            )
+        return text
 
     def finish(self) -> None:
         """Raise what was found to be wrong.

@@ -34,7 +34,11 @@ from ssrics_like.sources import open_log
 from ssrics_like.world.robot import RobotProfile
 
 
-def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -> str:
+def check_file(
+    path: Path,
+    progress: Callable[[float], None] = lambda _: None,
+    study: Callable[[Path], str] | None = None,
+) -> str:
     """Check one file or results folder and say in a line what it is.
 
     Parameters
@@ -43,6 +47,8 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
         The file.
     progress : callable
         Called now and then with the share of a log that has been read.
+    study : callable or None
+        Checks a study, which is of an outer layer, and says what it is.
 
     Raises
     ------
@@ -61,7 +67,10 @@ def check_file(path: Path, progress: Callable[[float], None] = lambda _: None) -
         return _json(path)
     if path.suffix in SUFFIXES:
         kind = _kind(path)
-        return f"{kind}, {YAML_KINDS[kind](path)}"
+        check = study if kind == "study" else YAML_KINDS[kind]
+        if check is None:
+            raise SettingsError(f"{path}: is a study, expected a {choices(KINDS)}")
+        return f"{kind}, {check(path)}"
     return _log(path, progress)
 
 
@@ -134,6 +143,7 @@ def _kind_of(path: Path) -> str:
         "map": set(MapFile.model_fields) - {"title", "locations"},
         "plan": set(PlanFile.model_fields) - {"title", "locations"},
         "robot": set(RobotProfile.model_fields) - {"title", "source"},
+        "study": STUDY_KEYS,
     }
     best = max(known, key=lambda kind: len(known[kind] & keys))
     return best if known[best] & keys else ""
@@ -189,8 +199,15 @@ def _log(path: Path, progress: Callable[[float], None]) -> str:
     return f"{what}; {said}" if said else what
 
 
-def json_schema(kind: str) -> dict[str, Any]:
+def json_schema(kind: str, study: type[BaseModel] | None = None) -> dict[str, Any]:
     """Return the JSON Schema of a kind of YAML file.
+
+    Parameters
+    ----------
+    kind : str
+        Which.
+    study : type of BaseModel or None
+        What a study may say, which is of an outer layer.
 
     Raises
     ------
@@ -204,6 +221,7 @@ def json_schema(kind: str) -> dict[str, Any]:
         "robot": RobotProfile,
         "productions": RuleFile,
         "plan": PlanFile,
+        **({} if study is None else {"study": study}),
     }
     if kind not in models:
         raise SettingsError(
@@ -222,5 +240,9 @@ YAML_KINDS: dict[str, Callable[[Path], str]] = {
     "plan": _plan,
 }
 KINDS = (*YAML_KINDS, "doorway cue", "structure cue", "memory", "log", "results folder")
+STUDY_KEYS = {
+    "consent", "instructions", "thanks", "participant", "order", "practice", "trials",
+    "next_participant", "participants_max", "responses_max",
+}  # fmt: skip
 PROGRESS_EVERY = 256  # scans
 HEAD_BYTES = 256

@@ -3,23 +3,34 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, cast
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import JSONResponse
+from fastapi.responses import HTMLResponse, JSONResponse, Response
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 from starlette.staticfiles import StaticFiles
 
 from ssrics_like.study.admin import admin_routes
 from ssrics_like.study.conduct import Conduct
+from ssrics_like.study.limits import RateLimit
+from ssrics_like.study.pages import page
 from ssrics_like.study.refused import Refused
 from ssrics_like.study.routes import NO_STORE, participant_routes
 from ssrics_like.study.security import Guard
 
 STATIC = Path(__file__).parent / "static"
+PAGES = ("/", "/admin")
+TOLD_PER_S = 1 / 60  # browsers try again and again; the experimenter is told once a minute
+WRONG = {
+    "missing": "is missing",
+    "extra_forbidden": "is not known here",
+    "json_invalid": "is no JSON",
+}
+"""Kind of error -> what is said of it; of others, that the value was not expected."""
 
 log = logging.getLogger("ssrics_like.study")
 
@@ -41,7 +52,7 @@ def make_app(conduct: Conduct, admin_token: str) -> FastAPI:
     app.add_exception_handler(Refused, _refused)
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _failed)
-    app.add_exception_handler(SQLAlchemyError, _unsaved)
+    app.add_exception_handler(SQLAlchemyError, _unusable(conduct))
     app.add_exception_handler(Exception, _broken)
     app.add_middleware(Guard)
     return app
@@ -60,9 +71,9 @@ def _invalid(_request: Request, error: Exception) -> JSONResponse:
     """Name what is wrong, not what was sent: it may be anything."""
     first: dict[str, Any] = cast("RequestValidationError", error).errors()[0]
     where = ".".join(str(part) for part in first["loc"])[:100]
-    message = str(first["msg"])[:200].encode("ascii", "replace").decode()
-    where = where.encode("ascii", "replace").decode()
-    return _answer(422, f"{where}: {message}")
+    own = first.get("ctx", {}).get("error")  # of a check of ours
+    said = str(own) if own else WRONG.get(first["type"], "is not what was expected")
+    return _answer(422, f"{where}: {said}".encode("ascii", "replace").decode())
 
 
 def _failed(_request: Request, error: Exception) -> JSONResponse:
@@ -70,9 +81,21 @@ def _failed(_request: Request, error: Exception) -> JSONResponse:
     return _answer(failed.status_code, str(failed.detail))
 
 
-def _unsaved(_request: Request, error: Exception) -> JSONResponse:
-    log.error("the database cannot be used: %s", getattr(error, "orig", None) or type(error))
-    return _answer(503, "This could not be saved; it will be tried again.")
+def _unusable(conduct: Conduct) -> Callable[[Request, Exception], Response]:
+    """Return what answers while the database cannot be used: nothing is called saved then."""
+    told = RateLimit(TOLD_PER_S, 1)
+
+    def unusable(request: Request, error: Exception) -> Response:
+        why = str(getattr(error, "orig", None) or type(error).__name__)
+        if told.allows(why):
+            log.error("ssrics: %s: the database cannot be used (%s)", conduct.store.name, why)
+        if request.method == "GET" and request.url.path in PAGES:
+            return HTMLResponse(page("unavailable", conduct.study), 503, headers=NO_STORE)
+        return _answer(
+            503, "The study cannot be reached at the moment. Please try again in a while."
+        )
+
+    return unusable
 
 
 def _broken(_request: Request, _error: Exception) -> JSONResponse:

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssrics_like.study.events import Incoming, Progress, Response
+from ssrics_like.study.events import Incoming, Progress, Response, named
 from ssrics_like.study.frames import COLUMNS, RATE_HZ, shown_bearings
 from ssrics_like.study.marks import marks_of
 from ssrics_like.study.order import order_of
 from ssrics_like.study.participant import Participant
 from ssrics_like.study.plan_picture import is_on_picture, on_map, on_picture
 from ssrics_like.study.refused import Refused
+from ssrics_like.study.settings import INSTRUCTIONS
 from ssrics_like.study.store import Store, now
 from ssrics_like.study.study import Study, Trial
 from ssrics_like.study.tokens import digest, new_id, new_token
 
-INSTRUCTIONS = "instructions"
+END_MS = 100.0
+"""So near to its end, two of its pictures, a walk is over."""
 ANY_KIND = ("begin", "end")
 EVENTS = {
     "": ANY_KIND,
@@ -144,6 +146,11 @@ class Conduct:
         kind = trial.kind if trial else ""
         if incoming.event not in EVENTS[kind]:
             raise Refused(422, "This cannot happen in this step.")
+        if incoming.event == "end" and trial is not None and trial.replay is not None:
+            # Told by the browser, as is all that happens in it; it may have been without us.
+            shown_ms = max(person.replay_ms, incoming.replay_ms or 0.0)
+            if shown_ms < 1000 * trial.replay.length_s - END_MS:
+                raise Refused(422, "The walk is not over yet.")
         x_m, y_m = self._place(trial, incoming)
         return Response(
             participant=person.name,
@@ -154,7 +161,7 @@ class Conduct:
             mark=incoming.mark or "",
             x_m=x_m,
             y_m=y_m,
-            label=(incoming.label or "").strip(),
+            label=named(incoming.label or ""),
             pressed=incoming.pressed or "",
             t_ms=incoming.t_ms,
             replay_ms=incoming.replay_ms,

@@ -9,12 +9,14 @@ from typing import Annotated, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 LABEL_MAX = 200
+FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
+"""A cell that begins with one of these, plain or of full width, is run by spreadsheets."""
 DAY_MS = 86_400_000.0
 
 Event = Literal["begin", "add", "move", "name", "delete", "press", "pause", "resume", "end"]
 OF_A_MARK = ("add", "move", "name", "delete")
 
-Key = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{8,64}$")]
+Key = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{7,63}$")]
 """Made by the browser, a different one for each response; also the name of the mark it adds."""
 
 
@@ -37,7 +39,7 @@ class Incoming(BaseModel):
     label : str or None
         What the mark is called.
     pressed : str or None
-        Which key.
+        Which key, a letter or digit.
     t_ms : float
         Milliseconds since the step was shown.
     replay_ms : float or None
@@ -55,12 +57,12 @@ class Incoming(BaseModel):
     right_m: Annotated[float, Field(ge=-1e6, le=1e6)] | None = None
     down_m: Annotated[float, Field(ge=-1e6, le=1e6)] | None = None
     label: Annotated[str, Field(max_length=LABEL_MAX)] | None = None
-    pressed: Annotated[str, Field(max_length=1)] | None = None
+    pressed: Annotated[str, Field(pattern=r"^[a-z0-9]$")] | None = None
     t_ms: Annotated[float, Field(ge=0.0, le=1e14)]  # a clock that was put right may be far off
     replay_ms: Annotated[float, Field(ge=0.0, le=DAY_MS)] | None = None
     client_ms: Annotated[float, Field(ge=0.0, le=1e14)]
 
-    @field_validator("label", "pressed")
+    @field_validator("label")
     @classmethod
     def _is_one_line(cls, text: str | None) -> str | None:
         if text is not None and any(unicodedata.category(c) in ("Cc", "Cs") for c in text):
@@ -77,6 +79,14 @@ class Incoming(BaseModel):
         if self.event == "name" and self.label is None:
             raise ValueError("name needs label")
         return self
+
+
+def named(label: str) -> str:
+    """Return a label as it is kept: no spaces around it, and none of `FORMULA` before it."""
+    kept = label.strip()
+    while kept and kept[0] in FORMULA:
+        kept = kept[1:].lstrip()
+    return kept
 
 
 class Progress(BaseModel):

@@ -12,7 +12,7 @@ from ssrics_like.results.files import csv_text
 from ssrics_like.study.events import Response
 from ssrics_like.study.marks import Mark, marks_of
 from ssrics_like.study.participant import Participant
-from ssrics_like.study.store import Store
+from ssrics_like.study.records import Records
 
 CHOICES = ("participant", "landmark", "x_m", "y_m", "label", "t_s")
 PARTICIPANTS = (
@@ -28,7 +28,7 @@ PARTICIPANTS = (
 
 @dataclass(frozen=True)
 class Answers:
-    """Everything that a store holds, as values.
+    """Everything that a study's database holds, as values.
 
     Attributes
     ----------
@@ -68,19 +68,19 @@ class Answers:
         return found
 
 
-def read_answers(store: Store) -> Answers:
-    """Read all that a store holds.
+def read_answers(records: Records) -> Answers:
+    """Read all that a study's database holds.
 
     Raises
     ------
     StudyError
         No study has been served with it.
     """
-    outline = store.outline
+    outline = records.outline
     if not outline:
-        raise StudyError(f"{store.name}: holds no study's answers")
+        raise StudyError(f"{records.name}: holds no study's answers")
     listed = {name: outline["trials"][name] for name in outline["listed"]}
-    return Answers(listed, store.participants(), store.responses())
+    return Answers(listed, *records.everything())
 
 
 def tables_of(answers: Answers, wanted: Iterable[str] = ()) -> dict[str, str]:

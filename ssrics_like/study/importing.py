@@ -100,6 +100,7 @@ def imported(
         if not given["x_m"] and not given["y_m"]:
             continue
         participant = table.word(line, cells, columns["participant"])
+        landmark = table.word(line, cells, columns["landmark"]) if given.get("landmark") else ""
         x, y = (table.number(line, cells, columns[key]) for key in ("x_m", "y_m"))
         t = table.number(line, cells, columns["t_s"]) if given.get("t_s") else math.nan
         if math.isnan(x) or math.isnan(y):  # is noted
@@ -117,7 +118,7 @@ def imported(
         rows.append(
             (
                 participant,
-                given.get("landmark") or f"L{made[participant]}",
+                landmark or f"L{made[participant]}",
                 x_m,
                 y_m,
                 given.get("label", ""),

@@ -102,7 +102,7 @@ def _texts(document: Document) -> list[str]:
 
 def _twice(document: Document) -> list[str]:
     """Complain of ids that stand twice."""
-    first: dict[str, str] = {}
+    first: dict[str, tuple[str, str]] = {}
     problems = []
     for part in ("practice", "trials"):
         entries = document.data.get(part)
@@ -111,12 +111,17 @@ def _twice(document: Document) -> list[str]:
             if not isinstance(name, str):
                 continue
             where = document.where((part, i, "id"))
-            if name in first:
-                line = first[name].removeprefix(f"{document.path}:").partition(":")[0]
-                problems.append(
-                    f"{where}: {part}.{i}.id: '{name}' stands twice (first in line {line})"
-                )
-            first.setdefault(name, where)
+            before, at_first = first.setdefault(name.casefold(), (name, where))
+            if at_first == where:
+                continue
+            line = at_first.removeprefix(f"{document.path}:").partition(":")[0]
+            said = (
+                f"'{name}' stands twice (first in line {line})"
+                if before == name
+                else f"'{name}' names the same files as '{before}' in line {line} where case "
+                "does not count"
+            )
+            problems.append(f"{where}: {part}.{i}.id: {said}")
     return problems
 
 

@@ -108,7 +108,8 @@ def replay_of_run(folder: Path, run: int, robot: RobotProfile) -> Replay:
     found = set()
     try:
         with file.open(encoding="utf-8", newline="") as lines:
-            for row in csv.DictReader(lines):
+            rows = csv.DictReader(lines)
+            for row in rows:
                 number = int(row["run"])
                 found.add(number)
                 if number != run:
@@ -127,8 +128,14 @@ def replay_of_run(folder: Path, run: int, robot: RobotProfile) -> Replay:
         if isinstance(e, ResultsError):
             raise
         raise ResultsError(f"{file}: cannot be read ({e.strerror})") from None
-    except (KeyError, TypeError, ValueError, csv.Error) as e:
-        raise ResultsError(f"{file}: is damaged: {e!r}") from None
+    except KeyError as e:
+        raise ResultsError(f"{file}: is damaged: it lacks the column {e}") from None
+    except (TypeError, ValueError):
+        raise ResultsError(
+            f"{file}:{rows.line_num}: is damaged: expected a number in each column"
+        ) from None
+    except csv.Error:
+        raise ResultsError(f"{file}: is damaged: it is no CSV") from None
     if not times:
         known = ", ".join(map(str, sorted(found))) or "none"
         raise ResultsError(f"{folder}: has no run {run}; the runs are {known}")

@@ -37,7 +37,9 @@ class Joining(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
-    participant: Annotated[str, Field(pattern=r"^[A-Za-z0-9._@-]{1,64}$")] | None = None
+    participant: Annotated[str, Field(pattern=r"^[A-Za-z0-9._][A-Za-z0-9._@-]{0,63}$")] | None = (
+        None
+    )
 
 
 def participant_routes(conduct: Conduct) -> APIRouter:

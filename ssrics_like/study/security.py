@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 BODY_MAX = 64 * 1024
+PASSED_OVER_MAX = 16 * 1024 * 1024
+"""So much of a body that is too long is read, so that its sender comes to read the answer."""
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'self'; "
@@ -43,7 +45,7 @@ class Guard:
             return
         declared = dict(scope["headers"]).get(b"content-length", b"0")
         if not declared.isdigit() or len(declared) > 12 or int(declared) > BODY_MAX:  # noqa: PLR2004
-            await self._refuse(send)
+            await self._refuse(scope, receive, send)
             return
         taken = 0
         begun = False
@@ -53,7 +55,7 @@ class Guard:
             message = await receive()
             taken += len(message.get("body", b""))
             if taken > BODY_MAX:
-                raise TooLongError
+                raise TooLongError(is_all=not message.get("more_body", False))
             return message
 
         async def guarded(message: Message) -> None:
@@ -67,12 +69,16 @@ class Guard:
 
         try:
             await self._app(scope, counted, guarded)
-        except TooLongError:
+        except TooLongError as e:
             if begun:
                 raise
-            await self._refuse(send)
+            await self._refuse(scope, receive, send, is_all=e.is_all)
 
-    async def _refuse(self, send: Send) -> None:
+    async def _refuse(
+        self, scope: Scope, receive: Receive, send: Send, *, is_all: bool = False
+    ) -> None:
+        if not is_all and b"expect" not in dict(scope["headers"]):  # which waits to be told
+            await _pass_over(receive)
         body = json.dumps({"detail": "The request is too long."}).encode()
         headers: list[Any] = [(b"content-type", b"application/json"), *self._headers]
         headers += [(b"content-length", str(len(body)).encode()), (b"connection", b"close")]
@@ -80,5 +86,24 @@ class Guard:
         await send({"type": "http.response.body", "body": body})
 
 
+async def _pass_over(receive: Receive) -> None:
+    """Read what is being sent and throw it away: closing amid it would reset the connection."""
+    taken, more = 0, True
+    while more and taken < PASSED_OVER_MAX:
+        message = await receive()
+        more = message.get("more_body", False)  # not there where the sender has gone
+        taken += len(message.get("body", b""))
+
+
 class TooLongError(BaseException):
-    """A body that was not declared turned out too long; nothing inside is to catch this."""
+    """A body that was not declared turned out too long; nothing inside is to catch this.
+
+    Parameters
+    ----------
+    is_all : bool
+        Whether its end has been read.
+    """
+
+    def __init__(self, *, is_all: bool) -> None:
+        super().__init__()
+        self.is_all = is_all

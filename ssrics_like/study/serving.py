@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import ipaddress
+import logging
 import signal
 import socket
+from collections.abc import Iterator
 
 import uvicorn
 from fastapi import FastAPI
@@ -44,7 +47,8 @@ def bound(host: str, port: int) -> socket.socket:
         )[0]
         found = socket.socket(family, kind, protocol)
     except (OSError, UnicodeError, OverflowError) as e:
-        raise StudyError(f"--host {host}: cannot be bound to ({e})") from None
+        why = getattr(e, "strerror", None) or "it is no name of a host"
+        raise StudyError(f"--host {host}: cannot be bound to ({why})") from None
     try:
         found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         found.bind(address)
@@ -64,14 +68,35 @@ def address_of(listening: socket.socket, host: str) -> str:
     return f"http://{shown}:{listening.getsockname()[1]}/"
 
 
+@contextlib.contextmanager
+def until_interrupted() -> Iterator[None]:
+    """Take Ctrl-C, and SIGTERM, by which a service is ended, for the ordinary end of what is done.
+
+    Nothing is lost by it: every response has been saved before it was answered.
+    """
+    # uvicorn stops at both in order, and then hands them on to whoever had them before.
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        with contextlib.suppress(KeyboardInterrupt):
+            yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
 def serve(app: FastAPI, listening: socket.socket) -> None:
     """Serve until interrupted; nothing about requests is logged."""
     config = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False, date_header=True,
-        timeout_graceful_shutdown=5, lifespan="off", proxy_headers=True,
+        timeout_graceful_shutdown=2, lifespan="off", proxy_headers=True,
     )  # fmt: skip
-    # Ctrl-C is how serving ends; every response has been saved before it was answered. A service
-    # is ended by SIGTERM, in the same way: uvicorn hands it on when it has stopped.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    with contextlib.suppress(KeyboardInterrupt):
-        uvicorn.Server(config).run(sockets=[listening])
+    logging.getLogger("uvicorn.error").addFilter(_is_bug)
+    uvicorn.Server(config).run(sockets=[listening])
+
+
+def _is_bug(record: logging.LogRecord) -> bool:
+    """Tell whether a message is of a bug here.
+
+    Others are of what strangers send to any port, and of requests that the end cut off.
+    """
+    kind = record.exc_info[0] if record.exc_info else None
+    return kind is not None and not issubclass(kind, asyncio.CancelledError)

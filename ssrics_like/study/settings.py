@@ -9,6 +9,9 @@ from pydantic import Field, field_validator, model_validator
 from ssrics_like.scenarios.schema import NAME
 from ssrics_like.scenarios.world_settings import PoseList, Strict
 
+INSTRUCTIONS = "instructions"
+"""What the step before the first trial is called in the tables."""
+
 Text = Annotated[str, Field(min_length=1)]
 
 OF_WALKS = ("robot", "start", "waypoints", "results", "run", "pausing")
@@ -81,6 +84,8 @@ class TrialSettings(Strict):
     def _names_files(cls, name: str) -> str:
         if not NAME.fullmatch(name) or len(name) > 40:  # noqa: PLR2004
             raise ValueError(f"{name!r}: expected up to 40 letters, digits, dots and dashes")
+        if name.casefold() == INSTRUCTIONS:
+            raise ValueError(f"{name!r}: is what the step before the first trial is called")
         return name
 
     @model_validator(mode="after")

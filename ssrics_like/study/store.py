@@ -14,20 +14,21 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict, replace
 from typing import Any
 
-from sqlalchemy import Connection, Row, case, func, insert, inspect, select, update
-from sqlalchemy.exc import DBAPIError, IntegrityError, OperationalError
+from sqlalchemy import Connection, Row, case, func, insert, select, update
+from sqlalchemy.exc import IntegrityError, OperationalError
 
 from ssrics_like.errors import StudyError
 from ssrics_like.results.manifest import difference
-from ssrics_like.study.database import WRITES, engine_of, identity, shown
+from ssrics_like.study.database import WRITES, engine_of, identity, is_there
 from ssrics_like.study.events import Response
 from ssrics_like.study.participant import Participant
+from ssrics_like.study.records import Records, participant_of
 from ssrics_like.study.refused import Refused
 from ssrics_like.study.tables import VERSION, metadata, participants, responses, study
 
 
-class Store:
-    """A study's database.
+class Store(Records):
+    """A study's database, into which answers are written; its tables are made if it has none.
 
     Parameters
     ----------
@@ -37,46 +38,21 @@ class Store:
     Raises
     ------
     StudyError
-        It cannot be opened, is no database, or is of a newer version.
+        It cannot be opened, is no study's database, or is of a newer version.
     """
 
     def __init__(self, name: str) -> None:
-        self.name = shown(name)
-        self._engine = engine_of(name)
-        self._sqlite = self._engine.dialect.name == "sqlite"
         self._turn = threading.Lock()  # SQLite has one writer; to wait here is fairer than there
         self._identity: tuple[int, int] | None = None
-        try:
-            self._check_tables()
-            with self._complaining(), self._writing() as connection:
-                metadata.create_all(connection)
-        except StudyError:
-            self.close()
-            raise
+        if is_there(name):
+            Records(name).close()  # what is somebody else's is refused before it is touched
+        self._open(name, engine_of(name))
         self._identity = identity(self._engine)
-        kept = self._kept()
-        if kept is not None and kept.version > VERSION:
-            self.close()
-            raise StudyError(
-                f"{self.name}: answers of version {kept.version}, this program reads up to "
-                f"{VERSION}"
-            )
 
-    def close(self) -> None:
-        """Close all connections."""
-        self._engine.dispose()
-
-    @property
-    def title(self) -> str:
-        """Title of the study whose answers these are; empty if there is none."""
-        kept = self._kept()
-        return str(kept.title) if kept is not None else ""
-
-    @property
-    def outline(self) -> dict[str, Any]:
-        """What the study's `outline` was when it was first served; empty if it never was."""
-        kept = self._kept()
-        return dict(json.loads(kept.outline)) if kept is not None else {}
+    def _check(self) -> None:
+        with self._writing() as connection:
+            metadata.create_all(connection)
+        super()._check()
 
     def belong_to(self, title: str, outline: str) -> None:
         """Note whose answers these are.
@@ -86,7 +62,7 @@ class Store:
         StudyError
             They are another study's, or the study's trials have changed.
         """
-        with self._complaining(), self._writing() as connection:
+        with self.complaining(), self._writing() as connection:
             kept = connection.execute(select(study)).first()
             if kept is None:
                 connection.execute(
@@ -134,15 +110,7 @@ class Store:
                 raise Refused(
                     409, "Somebody has begun with this id already, perhaps in another browser."
                 ) from None
-            return _participant(_by(connection, participants.c.token, token))
-
-    def participant(self, token: str) -> Participant | None:
-        """Return who has a secret, by its digest."""
-        with self._engine.connect() as connection:
-            found = connection.execute(
-                select(participants).where(participants.c.token == token)
-            ).first()
-        return None if found is None else _participant(found)
+            return participant_of(_by(connection, participants.c.token, token))
 
     def append(
         self,
@@ -171,7 +139,7 @@ class Store:
         """
         with self._writing() as connection:
             # The row is locked, where the database can: a participant's responses queue up.
-            person = _participant(_by(connection, participants.c.id, number))
+            person = participant_of(_by(connection, participants.c.id, number))
             is_it = case((responses.c.key == key, 1), else_=0)
             wanted = select(func.count(), func.coalesce(func.sum(is_it), 0))
             mine = responses.c.participant == number
@@ -204,82 +172,35 @@ class Store:
                 .values(replay_ms=replay_ms)
             )
 
-    def participants(self) -> list[Participant]:
-        """Return all participants, in the order in which they began."""
-        with self._engine.connect() as connection:
-            found = connection.execute(select(participants).order_by(participants.c.id)).all()
-        return [_participant(row) for row in found]
-
-    def responses(self, number: int | None = None, position: int | None = None) -> list[Response]:
-        """Return responses in the order of their saving: all, or one participant's, or a step's."""
-        wanted = select(responses, participants.c.name).join(participants)
-        if number is not None:
-            wanted = wanted.where(responses.c.participant == number)
-        if position is not None:
-            wanted = wanted.where(responses.c.position == position)
-        with self._engine.connect() as connection:
-            rows = connection.execute(wanted.order_by(responses.c.id)).all()
-        names = [name for name in Response.__slots__ if name != "participant"]
-        return [Response(row.name, **{name: getattr(row, name) for name in names}) for row in rows]
-
-    def counts(self) -> dict[str, int]:
-        """Return how many responses each participant has sent, by id."""
-        wanted = (
-            select(participants.c.name, func.count(responses.c.id))
-            .join(responses)
-            .group_by(participants.c.name)
-        )
-        with self._engine.connect() as connection:
-            return {str(name): int(count) for name, count in connection.execute(wanted)}
-
-    def _check_tables(self) -> None:
-        """Check that the database is empty, or a study's: nobody's else is touched.
-
-        Raises
-        ------
-        StudyError
-            It is another program's.
-        """
-        with self._complaining():
-            there = inspect(self._engine)
-            names = set(there.get_table_names())
-            foreign = self._sqlite and bool(names) and not names & metadata.tables.keys()
-            for name in names & metadata.tables.keys():
-                columns = {column["name"] for column in there.get_columns(name)}
-                foreign |= not columns >= set(metadata.tables[name].columns.keys())
-        if foreign:
-            raise StudyError(
-                f"{self.name}: holds another program's tables; expected a study's, or none"
-            )
-
-    def _kept(self) -> Row[Any] | None:
-        with self._complaining(), self._engine.connect() as connection:
-            return connection.execute(select(study)).first()
+    @contextlib.contextmanager
+    def _reading(self) -> Iterator[Connection]:
+        self._check_identity()
+        with super()._reading() as connection:
+            yield connection
 
     @contextlib.contextmanager
     def _writing(self) -> Iterator[Connection]:
         """Open a transaction that is committed at the end; one at a time on SQLite."""
-        if self._identity is not None and identity(self._engine) != self._identity:
-            # SQLite would go on in a file that nobody can find any more.
-            raise OperationalError("", None, OSError(f"{self.name} is not there any more"))
-        turn = self._turn if self._sqlite else contextlib.nullcontext()
+        self._check_identity()
+        turn = self._turn if self._engine.dialect.name == "sqlite" else contextlib.nullcontext()
         with (
             turn,
             self._engine.connect().execution_options(**{WRITES: True}) as connection,
             connection.begin(),
         ):
             yield connection
+        self._check_identity()  # what was committed to a file that is gone is not saved
 
-    @contextlib.contextmanager
-    def _complaining(self) -> Iterator[None]:
-        """Turn what the database says into one line."""
-        try:
-            yield
-        except DBAPIError as e:
-            said = str(e.orig).strip().splitlines()
-            raise StudyError(
-                f"{self.name}: the database cannot be used ({said[0] if said else 'no reason'})"
-            ) from None
+    def _check_identity(self) -> None:
+        """Complain, as a database would, where SQLite would go on in a file that nobody can find.
+
+        Raises
+        ------
+        OperationalError
+            The file was removed, or another one put in its place.
+        """
+        if self._identity is not None and identity(self._engine) != self._identity:
+            raise OperationalError("", None, OSError("its file was removed or replaced"))
 
 
 def now() -> str:
@@ -290,10 +211,3 @@ def now() -> str:
 def _by(connection: Connection, column: Any, value: Any) -> Row[Any]:
     wanted = select(participants).where(column == value).with_for_update()
     return connection.execute(wanted).one()
-
-
-def _participant(row: Row[Any]) -> Participant:
-    return Participant(
-        row.id, row.name, tuple(json.loads(row.trials)), row.position, row.replay_ms,
-        row.began, row.finished,
-    )  # fmt: skip

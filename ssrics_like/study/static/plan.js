@@ -1,4 +1,5 @@
 // A plan trial: marks on a floor plan.
+import { placed, shortened } from "/static/names.js";
 import { follow } from "/static/pointers.js";
 import { Step } from "/static/step.js";
 import { View } from "/static/view.js";
@@ -6,6 +7,7 @@ import { View } from "/static/view.js";
 const SHORT_M = 0.1, LONG_M = 1;
 const SETTLE_MS = 500;  // after the last stroke of a key, a move or a name is saved
 const LABEL_MAX = 200;
+const FORMULA = /^[\s=+\-@\uff1d\uff0b\uff0d\uff20]+/u;  // no name begins so: the server says why
 const SVG = "http://www.w3.org/2000/svg";
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const BARS_M = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50];
@@ -42,15 +44,20 @@ function element(name, parent, attributes = {}) {
 
 function draw() {
   get("world").setAttribute("transform", `matrix(${view.scale} 0 0 ${view.scale} ${view.x} ${view.y})`);
-  for (const mark of marks.values()) {
+  // The chosen mark's name is shown first of all.
+  const drawn = [...marks.values()].sort((a, b) => (b.key === chosen) - (a.key === chosen));
+  const places = drawn.map(mark => {
     const [x, y] = view.toScreen(mark.right, mark.down);
-    mark.shape.setAttribute("transform", `translate(${x} ${y})`);
-    // A name that would run over the edge stands on the other side.
     const name = mark.shape.querySelector(".name");
-    const left = x + 20 + name.getComputedTextLength() > view.size.width && x > view.size.width / 2;
-    name.setAttribute("x", left ? -16 : 16);
-    name.classList.toggle("left", left);
-  }
+    name.textContent = shortened(mark.label, view.size.width);
+    return { x, y, length: name.getComputedTextLength() };
+  });
+  placed(places, view.size).forEach((place, i) => {
+    const name = drawn[i].shape.querySelector(".name");
+    drawn[i].shape.setAttribute("transform", `translate(${places[i].x} ${places[i].y})`);
+    name.classList.toggle("covered", !place);
+    if (place) { name.setAttribute("x", place[0]); name.setAttribute("y", place[1]); }
+  });
   const [x, y] = view.toScreen(...cursor);
   cross.setAttribute("transform", `translate(${x} ${y})`);
   const bar = BARS_M.filter(metres => metres * view.scale <= 110).at(-1) ?? BARS_M[0];
@@ -65,7 +72,7 @@ function number() {
     n += 1;
     mark.number = n;
     mark.shape.querySelector(".digit").textContent = n;
-    mark.shape.querySelector(".name").textContent = mark.label;
+    mark.shape.querySelector("title").textContent = mark.label;
     mark.shape.setAttribute("aria-label", `Mark ${n}${mark.label ? `, ${mark.label}` : ""}`);
     mark.row.querySelector("b").textContent = n;
     mark.row.querySelector("input").setAttribute("aria-label", `Name of mark ${n}`);
@@ -81,6 +88,7 @@ function choose(key) {
     mark.shape.classList.toggle("chosen", mark.key === key);
     mark.row.classList.toggle("chosen", mark.key === key);
   }
+  draw();
   if (key) {
     const row = marks.get(key).row;  // shown by scrolling the list, never the page
     const over = row.offsetTop + row.offsetHeight - list.clientHeight - list.offsetTop;
@@ -91,11 +99,12 @@ function choose(key) {
 function put(key, right, down, label) {
   const shape = element("g", layer, { class: "mark", tabindex: 0, role: "button" });
   shape.dataset.key = key;
+  element("title", shape);
   element("circle", shape, { class: "reach", r: 22 });
   element("circle", shape, { class: "halo", r: 15 });
   element("circle", shape, { class: "ring", r: 11 });
   element("text", shape, { class: "digit" });
-  element("text", shape, { class: "name", x: 16 });
+  element("text", shape, { class: "name" });
   shape.addEventListener("focus", () => choose(key));
   const row = document.createElement("li");
   const digit = document.createElement("b");
@@ -113,7 +122,7 @@ function put(key, right, down, label) {
   name.addEventListener("focus", () => choose(key));
   const rename = () => {
     const mark = marks.get(key);
-    const said = name.value.replace(/\p{Cc}/gu, " ").trim();
+    const said = name.value.replace(/\p{Cc}/gu, " ").replace(FORMULA, "").trim();
     if (!mark || said === mark.label) return;
     mark.label = said;
     step.send("name", { mark: key, label: said });
@@ -121,7 +130,7 @@ function put(key, right, down, label) {
     draw();
   };
   name.addEventListener("input", () => soon(`name ${key}`, rename));
-  name.addEventListener("change", rename);
+  name.addEventListener("change", () => { rename(); name.value = marks.get(key)?.label ?? ""; });
   name.addEventListener("keydown", event => { if (event.key === "Enter") name.blur(); });
   remove.addEventListener("click", () => drop(key));
   number();

@@ -5,6 +5,7 @@ const SAID = {
   saving: "Saving …", saved: "Saved", gone: "This session is over. Load the page again.",
   over: "This step is over. Load the page again.",
   refused: "An answer could not be saved. Load the page again to see what is.",
+  lost: "An answer could not be saved. This page shows those that are.",
   waiting: "No connection. Your answers are kept here and sent later.",
 };
 
@@ -20,7 +21,8 @@ export class Step {
       const state = await step.load();
       if (state.step !== step.state.step) { location.reload(); await new Promise(() => {}); }
       step.state = state;
-      step.outbox.refused = "";  // what was not taken, the page does not show
+      if (step.outbox.refused) step.show("lost");  // and the page does not show it
+      step.outbox.refused = "";
     }
     step.startClock();
     if (!step.state.begun) step.send("begin");
@@ -67,8 +69,8 @@ export class Step {
   }
 
   /** End the step and show the next one. */
-  async end() {
-    this.send("end");
+  async end(more = {}) {
+    this.send("end", more);
     await this.sent;
     try { localStorage.removeItem(this.clockName); } catch { /* nothing was kept */ }
     location.assign("/");

@@ -146,7 +146,7 @@ get("pause")?.addEventListener("click", () => pause("asked"));
 get("done").addEventListener("click", async () => {
   get("done").disabled = true;
   try { localStorage.removeItem(place); } catch { /* nothing was kept */ }
-  await step.end();
+  await step.end({ replay_ms: state.length_ms });
 });
 document.addEventListener("visibilitychange", () => { if (document.hidden) pause("hidden"); });
 window.addEventListener("pagehide", () => {
@@ -155,7 +155,7 @@ window.addEventListener("pagehide", () => {
 
 get("count").textContent = presses;
 frames = await load();
-if (step.outbox.waiting().length === 0) step.show("saved");
+if (step.outbox.waiting().length === 0 && get("saved").dataset.state === "waiting") step.show("saved");
 new ResizeObserver(() => paint(clock.at(performance.now()))).observe(get("view"));
 if (clock.base >= state.length_ms) over();
 else curtain(clock.base > 0 ? "The walk goes on from where you were." : "Ready?", clock.base > 0 ? "Go on" : "Start");

@@ -14,10 +14,10 @@ form.addEventListener("submit", async event => {
   const source = form.dataset.participant;
   if (source === "typed") said.participant = document.getElementById("participant").value.trim();
   if (source === "url") said.participant = new URLSearchParams(location.search).get("pid") ?? "";
-  if (source !== "generated" && !/^[A-Za-z0-9._@-]{1,64}$/.test(said.participant)) {
+  if (source !== "generated" && !/^[A-Za-z0-9._][A-Za-z0-9._@-]{0,63}$/.test(said.participant)) {
     problem.textContent = source === "url"
       ? "The address lacks your participant id (?pid=...). Please use the link that you were given."
-      : "Please type your participant id: letters, digits, dots and dashes.";
+      : "Please type your participant id: letters, digits, dots and dashes, a dash not first.";
     return;
   }
   const button = form.querySelector("button");
