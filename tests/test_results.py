@@ -494,6 +494,16 @@ def test_files_of_others_in_the_folder_are_left_alone(tmp_path):
     assert all(path.read_text() == "dear to me" for path in [*kept, *mine])
 
 
+def test_pages_of_earlier_runs_go_with_them(tmp_path):
+    run_scenario(scenario(), tmp_path)
+    page, mine = tmp_path / "view-run-000.html", tmp_path / "view-run-of-my-own.html"
+    for each in (page, mine):
+        each.write_text("a run that is played")
+    run_scenario(scenario(seed=8), tmp_path)
+    assert not page.exists()
+    assert mine.exists()
+
+
 def test_a_file_with_the_name_of_a_result_is_not_overwritten(tmp_path):
     (tmp_path / "path.csv").write_text("dear to me")
     with pytest.raises(ResultsError, match=r"holds 'path\.csv' but no manifest\.json"):

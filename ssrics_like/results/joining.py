@@ -14,6 +14,8 @@ from ssrics_like.results.stored import JOINED, KEPT, entry_of, link
 
 MADE_FROM_ALL = ("report.html", "locations.csv", "scores.json")
 """Files that are worked out from all runs, after the tables."""
+PAGES = re.compile(r"view-run-\d{3,}\.html")
+"""On which runs are played; those of the runs before would tell of these no more."""
 _RUN_FILE = re.compile(r"run-\d{3,}\.(json|graphml|jsonl)")
 
 
@@ -37,8 +39,10 @@ def join_runs(path: Path, folders: list[Path], description: dict[str, Any]) -> d
         for old in (path / name).iterdir():
             if _RUN_FILE.fullmatch(old.name):
                 old.unlink()
-    for name in MADE_FROM_ALL:
-        (path / name).unlink(missing_ok=True)
+    outdated = [path / name for name in MADE_FROM_ALL]
+    outdated += [file for file in path.iterdir() if PAGES.fullmatch(file.name)]
+    for file in outdated:
+        file.unlink(missing_ok=True)
     for folder in folders:
         for source, among_all in KEPT.items():
             if (folder / source).is_file():
