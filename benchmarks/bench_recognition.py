@@ -40,7 +40,8 @@ from ssrics_like.scenarios.modules import load_memory, load_perception
 DRIFT = 0.05
 PURPOSE = 3  # buildings of their own, in which nothing was tuned
 WITHIN_M, ALIKE = 1.5, 0.8
-VISITS = ("1", "2", "2 from home", "2 misled")
+MISLED = "2 misled"
+VISITS = ("1", "2", "2 from home", MISLED)
 AT_HOME = VISITS[2:]
 MODELS = ("human-like + landmark", "nearest by odometry", "nearest view")
 

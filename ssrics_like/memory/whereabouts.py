@@ -34,11 +34,11 @@ PROOF = 6.0
 ENOUGH = 3
 """The robot relies on where it believes to be when so many landmarks have fitted."""
 SAME_PLACE_M = 1.0
-"""What is perceived so near to the place marked last is the same place, and may be a landmark that
-is known to lie so near: doorways are about as wide."""
-BESIDE_M = 0.3
-"""What is perceived farther from where a landmark is known to lie, if anything, is that landmark
-astray; and so well that place must be known (standard deviation)."""
+"""What is perceived so near to the place marked last is the same place."""
+BESIDE_M, DOORWAY_M = 0.3, 0.85
+"""What is perceived so far from where a landmark is known to lie, at least and at most, may be that
+landmark, perceived astray: two doorways do not lie nearer to each other than they are wide. Where it
+lies must be known to the former (standard deviation)."""
 GIVEN_UP = 6
 """After so many landmarks in a row that it was unsure of, a robot that is lost takes the next one
 that it does not know for new: it is somewhere that it has never been."""
@@ -217,7 +217,7 @@ class Whereabouts:
             for case in self._near
             if case.before is likeliest
             and case.known_m2 < BESIDE_M**2
-            and BESIDE_M < case.expected.distance_m(self._here.place) < SAME_PLACE_M
+            and BESIDE_M < case.expected.distance_m(self._here.place) < DOORWAY_M
         }
 
     def recognise(
