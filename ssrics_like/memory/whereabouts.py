@@ -37,8 +37,8 @@ SAME_PLACE_M = 1.0
 """What is perceived so near to the place marked last is the same place."""
 BESIDE_M, DOORWAY_M = 0.3, 0.85
 """What is perceived so far from where a landmark is known to lie, at least and at most, may be that
-landmark, perceived astray: two doorways do not lie nearer to each other than they are wide. Where it
-lies must be known to the former (standard deviation)."""
+landmark, perceived astray: two doorways do not lie nearer to each other than they are wide. Where
+it lies must be known to the former (standard deviation)."""
 GIVEN_UP = 6
 """After so many landmarks in a row that it was unsure of, a robot that is lost takes the next one
 that it does not know for new: it is somewhere that it has never been."""
