@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import re
+from collections import Counter
 from collections.abc import Callable
 from html.parser import HTMLParser
 from pathlib import Path
@@ -144,7 +145,7 @@ def build(
             {"run": run, "scans": poses, "start_s": start_s, "duration_s": duration_s,
              "path_length_m": 51.0 * laps, "novelty": {"intervals": 300, "novel_intervals": 200,
                                                        "onsets": 9},
-             "decisions": {}, "undecided": 0, "landmarks": len(graph), "firings": 30, "seed": 7,
+             "decisions": Counter(row[15] for row in decisions if row[0] == run), "undecided": 0, "landmarks": len(graph), "firings": 30, "seed": 7,
              "ended": "end of log", "warnings": list(warnings)}
         )  # fmt: skip
         save_topology(graph, folder / "topology" / f"run-{run:03d}.json")

@@ -225,7 +225,7 @@ def test_several_folders_stand_side_by_side(capsys, world, tmp_path):
         (["{log}", "{tmp}"], "{tmp}: expected a results folder, which has manifest.json, or a fo"),
         (
             ["{log}", "{log}/manifest.json"],
-            "{log}/manifest.json: expected a folder of labels, or a",
+            "{log}/manifest.json: expected a folder of labels, a map's file ending in .yaml, or",
         ),
         (["{short}", "{labels}"], "{short}: run 0 has 20 scans, but {labels}/poses.csv 1201: the"),
         (["{log}", "{map}"], "{log}/manifest.json: frame: 'odometry': expected positions on the "),

@@ -225,6 +225,7 @@ def test_kappa_of_all_markers_is_of_the_units_marked(world, other, choices):
         (["{world}", "{choices}", "--seed", "-1"], "--seed: -1: expected 0 or more"),
         (["{world}", "--bin", "1"], "--bin: goes with people's choices only; expected a .csv file"),
         (["{world}", "{choices}", "-o", "{choices}"], "{choices}: is a file, expected a folder"),
+        (["{world}", "{choices}", "-o", "{world}"], "{world}: holds results of runs, with tables"),
         (["{world}", "{text}"], PEOPLES),
         (["{choices}", "{world}"], "{choices}: people's choices are given last, after the folders"),
         (["{world}", "--participants", "none"], "--participants: goes with people's choices only"),

@@ -10,7 +10,7 @@ from people_choices import at_doors, compared, near, rows, run, write_choices
 from results_folders import DOORS, build, build_world, building
 
 from ssrics_like.cli.study_simulate import simulate
-from ssrics_like.errors import MapError, SettingsError
+from ssrics_like.errors import MapError, ResultsError, SettingsError
 from ssrics_like.maps import save_building
 from ssrics_like.people.markers import Marker
 from ssrics_like.report import style
@@ -35,6 +35,7 @@ def choices(tmp_path_factory):
 def test_locations_are_found_from_marks_where_that_is_asked(world, choices):
     made = compared([world], choices, "cluster")
     assert made.clustered
+    assert any("found by clustering people's marks" in note for note in made.notes)
     places = np.array([(place.x_m, place.y_m) for place in made.units.locations])
     for door in (0, 1, 2):
         assert np.hypot(*(places - DOORS[door]).T).min() < 0.5
@@ -93,6 +94,12 @@ def test_a_robot_without_marks_is_a_result(tmp_path, choices):
     idle = build_world(tmp_path / "idle", runs=2, poses=200, misses=0.0)
     file = idle / "decisions.csv"
     file.write_text(file.read_text().splitlines()[0] + "\n")
+    with pytest.raises(ResultsError, match=r"decisions.csv: has 0 rows of run 0, the manifest \d+"):
+        compared([idle], choices)
+    manifest = json.loads((idle / "manifest.json").read_text())
+    for entry in manifest["runs"]:
+        entry["decisions"] = {}
+    (idle / "manifest.json").write_text(json.dumps(manifest))
     made = compared([idle], choices)
     figures = made.figures["idle"]
     assert figures["f"].value == 0.0

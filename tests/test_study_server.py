@@ -2,6 +2,7 @@
 
 import csv
 import signal
+import socket
 import stat
 import sys
 import threading
@@ -12,7 +13,7 @@ import pytest
 from studies import STUDY, TOKEN, Server, write_study
 
 from ssrics_like.cli import main
-from ssrics_like.study.serving import is_loopback
+from ssrics_like.study.serving import address_of, bound, is_loopback
 from ssrics_like.study.store import Store
 
 
@@ -181,6 +182,24 @@ def test_a_port_that_is_taken_is_told(server, here, capsys):
     write_study(here)
     assert run("study", "serve", "small.yaml", "--port", server.port) == 1
     assert f"--port {server.port}: cannot be had on 127.0.0.1" in capsys.readouterr().err
+
+
+def test_an_export_leaves_no_table_of_a_larger_one(server, here):
+    answers = server.folder / "answers.sqlite"
+    (here / "out").mkdir()
+    for name in ("choices-walk.csv", "choices-mine.csv"):
+        (here / "out" / name).write_text("of before\n")
+    assert run("study", "export", answers, "-o", "out", "--trial", "plan") == 0
+    left = {path.name for path in (here / "out").glob("choices*")}
+    assert left == {"choices.csv", "choices-plan.csv", "choices-mine.csv"}
+
+
+def test_who_is_bound_to_all_addresses_gives_the_machines_name():
+    with bound("127.0.0.1", 0) as listening:
+        port = listening.getsockname()[1]
+        assert address_of(listening, "0.0.0.0") == f"http://{socket.gethostname()}:{port}/"
+        assert address_of(listening, "localhost") == f"http://localhost:{port}/"
+        assert address_of(listening, "::1") == f"http://[::1]:{port}/"
 
 
 def test_changed_trials_are_not_mixed_with_old_answers(server, here, capsys):

@@ -71,6 +71,7 @@ def compare_with_people(
     from ssrics_like.people import Settings, compare_people, read_folders
     from ssrics_like.people.participants import notes_on
     from ssrics_like.people.settings import BIN_LEAST_M, BIN_M, RADIUS_M, SEED
+    from ssrics_like.results.manifest import MANIFEST
 
     if not folders:
         raise ResultsError(f"compare: name a results folder before {choices}")
@@ -85,6 +86,10 @@ def compare_with_people(
         bin_m=metres_of("--bin", bin_m, least=BIN_LEAST_M) if bin_m is not None else BIN_M,
         seed=SEED if seed is None else seed,
     )
+    if out is not None and (out / MANIFEST).exists():
+        raise ResultsError(
+            f"{out}: holds results of runs, with tables of the same names; name another folder"
+        )
     if out is not None and out.exists() and not out.is_dir():
         raise ResultsError(f"{out}: is a file, expected a folder")
     read = read_folders(

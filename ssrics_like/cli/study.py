@@ -145,7 +145,7 @@ def export(answers: str, *, out: NeededOut, trial: Trials = (), finished: Flag =
     from ssrics_like.study.packages import needed
 
     needed("sqlalchemy")
-    from ssrics_like.study.export import read_answers, tables_of
+    from ssrics_like.study.export import outdated, read_answers, tables_of
     from ssrics_like.study.records import Records
 
     records = Records(_database_of(answers))
@@ -160,6 +160,8 @@ def export(answers: str, *, out: NeededOut, trial: Trials = (), finished: Flag =
     if out.exists() and not out.is_dir():
         raise StudyError(f"{out}: is a file, expected a folder")
     out.mkdir(parents=True, exist_ok=True)
+    for name in outdated(found, tables):
+        (out / name).unlink(missing_ok=True)
     for name, text in tables.items():
         write_atomically(out / name, text)
     people, done = len(found.participants), sum(p.is_done for p in found.participants)

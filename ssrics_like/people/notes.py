@@ -33,6 +33,11 @@ def notes_of(
     if not units.locations:
         said = "no two people marked the same place" if clustered else "no place is labelled"
         notes.append(f"There is no location: {said}. Every unit is a bin of the route.")
+    elif clustered:
+        notes.append(
+            "Locations were found by clustering people's marks, which flatters people: they agree "
+            "there by construction."
+        )
     notes += _off_route(people, models, units)
     if not crowd.consensus.any():
         notes.append(

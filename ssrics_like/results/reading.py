@@ -45,6 +45,7 @@ def read_records(folder: Path) -> Records:
     paths = _by_run(folder / "path.csv", started, _pose)
     reflexes = _by_run(folder / "decisions.csv", started, _reflex)
     landmarks = _by_run(folder / "landmarks.csv", started, _landmark)
+    _check_whole(folder, entries, paths, reflexes, landmarks)
     runs = tuple(
         replace(
             _run(entries[n], started[n], paths[n], reflexes[n], landmarks[n]), carried_s=carried
@@ -52,6 +53,29 @@ def read_records(folder: Path) -> Records:
         for n in sorted(entries)
     )
     return Records(folder, manifest, runs)
+
+
+def _check_whole(
+    folder: Path,
+    entries: dict[int, dict[str, Any]],
+    paths: dict[int, list[tuple[float, ...]]],
+    reflexes: dict[int, list[Reflex]],
+    landmarks: dict[int, list[Landmark]],
+) -> None:
+    """Check that no table was cut short, or figures would be made of what is left."""
+    for n, entry in entries.items():
+        if entry.get("scans") and not paths[n]:
+            raise ResultsError(f"{folder / 'path.csv'}: has no pose of run {n}")
+        counts = entry.get("decisions")
+        decided = sum(counts.values()) if isinstance(counts, dict) else 0
+        marked = entry.get("landmarks") or 0
+        for name, rows, wanted in (
+            ("decisions.csv", reflexes[n], decided), ("landmarks.csv", landmarks[n], marked),
+        ):  # fmt: skip
+            if len(rows) < wanted:
+                raise ResultsError(
+                    f"{folder / name}: has {len(rows)} rows of run {n}, the manifest {wanted}"
+                )
 
 
 def _carried(folder: Path, manifest: dict[str, Any]) -> tuple[float, ...]:

@@ -118,6 +118,12 @@ def tables_of(answers: Answers, wanted: Iterable[str] = ()) -> dict[str, str]:
     return dict(sorted(files.items()))
 
 
+def outdated(answers: Answers, files: Iterable[str]) -> set[str]:
+    """Return the names of tables that an earlier export may have left and this one lacks."""
+    names = {"choices.csv", *(f"choices-{name}.csv" for name in answers.designated)}
+    return names - set(files)
+
+
 def choices_text(answers: Answers, trials: Iterable[str]) -> str:
     """Return people's marks in some trials as a table of choices.
 

@@ -61,8 +61,8 @@ def bound(host: str, port: int) -> socket.socket:
 
 
 def address_of(listening: socket.socket, host: str) -> str:
-    """Return the address to open in a browser."""
-    shown = "127.0.0.1" if host in ("0.0.0.0", "") else "[::1]" if host == "::" else host  # noqa: S104
+    """Return the address to open in a browser; with the machine's name if it is bound to all."""
+    shown = socket.gethostname() if host in ("0.0.0.0", "::", "") else host  # noqa: S104
     if ":" in shown and not shown.startswith("["):
         shown = f"[{shown}]"
     return f"http://{shown}:{listening.getsockname()[1]}/"

@@ -50,7 +50,8 @@ function curtain(text, button) {
   get("curtain-text").textContent = text ?? "";
   get("start").hidden = !button;
   get("start").textContent = button ?? "";
-  if (button) get("start").focus({ preventScroll: true });
+  // Not at once: a press that was meant for what was there before would begin the walk unread.
+  if (button) setTimeout(() => get("start").focus({ preventScroll: true }), SETTLED_MS);
 }
 
 function tick(now) {
