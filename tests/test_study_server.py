@@ -150,7 +150,7 @@ def test_new_writes_a_study_that_can_be_served(here, capsys):
         (["study", "serve", "none.yaml"], "none.yaml: no such file"),
         (["study", "serve", "small.yaml", "--port", "70000"], "--port 70000: expected 0 to 65535"),
         (["study", "serve", "small.yaml", "--admin-token", "short"], "--admin-token: expected 12"),
-        (["study", "serve", "small.yaml", "--host", "203.0.113.7"], "cannot be had on 203.0.113.7"),
+        (["study", "serve", "small.yaml", "--host", "203.0.113.7"], "--host 203.0.113.7: is no address"),
         (["study", "serve", "small.yaml", "--port", "0", "--database", "none/a.sqlite"], "none: no s"),
         (["study", "export", "none.sqlite", "-o", "out"], "none.sqlite: no such file"),
         (["study", "export", "complex", "-o", "out"], "complex.sqlite: no such file; name the"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import errno
 import ipaddress
 import logging
 import signal
@@ -56,6 +57,8 @@ def bound(host: str, port: int) -> socket.socket:
     except (OSError, OverflowError) as e:
         found.close()
         why = getattr(e, "strerror", None) or e
+        if getattr(e, "errno", None) == errno.EADDRNOTAVAIL:
+            raise StudyError(f"--host {host}: is no address of this machine ({why})") from None
         raise StudyError(f"--port {port}: cannot be had on {host} ({why})") from None
     return found
 

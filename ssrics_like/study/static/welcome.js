@@ -16,7 +16,7 @@ form.addEventListener("submit", async event => {
   if (source === "url") said.participant = new URLSearchParams(location.search).get("pid") ?? "";
   if (source !== "generated" && !/^[A-Za-z0-9._][A-Za-z0-9._@-]{0,63}$/.test(said.participant)) {
     problem.textContent = source === "url"
-      ? "The address lacks your participant id (?pid=...). Please use the link that you were given."
+      ? "The address has no participant id that can be used (?pid=...). Please use the link that you were given."
       : "Please type your participant id: letters, digits, dots and dashes, a dash not first.";
     return;
   }
