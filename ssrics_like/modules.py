@@ -24,7 +24,6 @@ from ssrics_like.memory import (
     Here,
     Home,
     Hypothesis,
-    Link,
     Listed,
     ListedSimilarity,
     Request,
@@ -246,8 +245,9 @@ class LandmarkModules:
             self._passing.marked(reflex.place)
         if request.outcome == "declared":
             name = self.topological.next_id()
-            if not len(self.topological):
-                self._come_from_home(name, reflex)
+            # Where it came from is known only if nobody has carried it since.
+            if not len(self.topological) and self._start is not None and not self.carried:
+                self.home = Home.behind(name, self._start, here_of(reflex), self._uncertainty)
             made = self._declare(name, reflex)
             self._expecting.at(reflex)
             before = self.whereabouts.find(name, here_of(reflex), *self._evidence)
@@ -264,18 +264,6 @@ class LandmarkModules:
         )
         self._recalled = None
         return made
-
-    def _come_from_home(self, name: str, reflex: Reflex) -> None:
-        """Remember where the run began, seen from its first landmark."""
-        if self._start is None or self.carried:  # that it came from there is not known
-            return
-        start = Hypothesis(
-            None, Link(self._start, 0.0, 0.0), Here(self._start, False, 0.0, 0.0), 0.0
-        )
-        drift = self._uncertainty.since(start, here_of(reflex))
-        seen = self._start.seen_from(reflex.place)
-        if all(map(math.isfinite, (seen.x_m, seen.y_m, seen.theta_rad))):
-            self.home = Home.of(name, Link(seen, drift.variance_m2, drift.variance_rad2))
 
     def _declare(self, name: str, reflex: Reflex) -> BufferChunk:
         """Add a landmark to the graph; return its chunk for the landmark buffer."""

@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
+from ssrics_like.memory.expectation import Uncertainty
+from ssrics_like.memory.hypotheses import Here, Hypothesis
 from ssrics_like.memory.landmark import finite
 from ssrics_like.memory.links import Link
 from ssrics_like.poses import Pose
@@ -60,6 +62,27 @@ class Home:
             landmark, pose.x_m, pose.y_m, pose.theta_rad,
             math.sqrt(variance_m2), math.sqrt(variance_rad2),
         )  # fmt: skip
+
+    @classmethod
+    def behind(cls, landmark: str, start: Pose, here: Here, sd: Uncertainty) -> Home | None:
+        """Return home, if the first run began there and this is its first landmark.
+
+        Parameters
+        ----------
+        landmark : str
+            Its name.
+        start : Pose
+            Where the run began, by path integration; None is returned where that is no number.
+        here : Here
+            Where the landmark was perceived.
+        sd : Uncertainty
+            How well the way between is known.
+        """
+        seen = start.seen_from(here.place)
+        if not all(map(math.isfinite, (seen.x_m, seen.y_m, seen.theta_rad))):
+            return None
+        begun = Hypothesis(None, Link(start, 0.0, 0.0), Here(start, False, 0.0, 0.0), 0.0)
+        return cls.of(landmark, sd.since(begun, here)._replace(pose=seen))
 
     def landmark_from(self, start: Pose) -> Link:
         """Return where the landmark lies if the robot was put down here, at home."""
