@@ -36,11 +36,17 @@ def cores() -> int:
 
 
 class Workers(Generic[Result]):
-    """Some processes, and what they were given to do."""
+    """Some processes, and what they were given to do.
+
+    Attributes
+    ----------
+    interrupted : bool
+        Whether there was an interrupt that nobody has been told of.
+    """
 
     def __init__(self, pool: ProcessPoolExecutor) -> None:
         self._pool = pool
-        self._interrupted = False
+        self.interrupted = False
 
     def submit(self, function: Callable[..., Result], *arguments: Any) -> Future[Result]:
         """Give them a function of a module to call."""
@@ -57,13 +63,14 @@ class Workers(Generic[Result]):
         waiting = set(futures)
         while waiting:
             finished, waiting = wait(waiting, POLL_S, FIRST_COMPLETED)
-            if self._interrupted:
+            if self.interrupted:
+                self.interrupted = False
                 raise KeyboardInterrupt
             yield finished
 
     def interrupt(self, *_: object) -> None:
         """Note an interrupt; `rounds` raises it."""
-        self._interrupted = True
+        self.interrupted = True
 
 
 @contextmanager
@@ -90,6 +97,8 @@ def workers(
     ------
     ResultsError
         One of them died.
+    KeyboardInterrupt
+        At the end, if there was an interrupt that `rounds` has not raised.
     """
     CONTEXT.set_forkserver_preload(list(preload))
     multiprocessing.resource_tracker.ensure_running()  # which lets interrupts through again
@@ -108,6 +117,8 @@ def workers(
             ) from None
         finally:
             pool.shutdown(cancel_futures=True)
+    if at_work.interrupted:  # after the last round; it is not to be lost
+        raise KeyboardInterrupt
 
 
 def in_order(

@@ -40,6 +40,18 @@ def test_an_interrupt_while_work_is_handed_out_is_raised_while_waiting():
     assert sum(future.cancelled() for future in rest) > 10  # what was not begun is not done
 
 
+def hand_out_and_be_interrupted_at_the_last():
+    with workers(1) as at_work:
+        for _ in at_work.rounds([at_work.submit(slowly, 3)]):
+            pass
+        signal.raise_signal(signal.SIGINT)
+
+
+def test_an_interrupt_after_the_last_result_is_not_lost():
+    with pytest.raises(KeyboardInterrupt):
+        hand_out_and_be_interrupted_at_the_last()
+
+
 def test_workers_never_get_an_interrupt():
     with workers(2) as at_work:
         for _ in at_work.rounds(futures := [at_work.submit(blocked) for _ in range(4)]):
