@@ -40,6 +40,7 @@ from ssrics_like.memory.surroundings import agreement
 from ssrics_like.model import CognitiveModel
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.perception.surround_view import DIRECTIONS
+from ssrics_like.perception.surroundings import DECIMALS
 from ssrics_like.poses import Pose
 from ssrics_like.productions.interface import SlotTest
 from ssrics_like.productions.rulebook import load_rulebook
@@ -68,7 +69,9 @@ def memory_of(landmarks: int) -> SavedMemory:
     side = math.isqrt(landmarks)
     names = [f"L{number + 1}" for number in range(side * side)]
     lengths = rng.uniform(0.5, 6.0, (len(names), DIRECTIONS))
-    views = np.concatenate([lengths, np.zeros_like(lengths)], axis=1).astype(np.float32)
+    vistas = rng.uniform(1.0, 40.0, lengths.shape)
+    views = np.concatenate([lengths, np.zeros_like(lengths), vistas], axis=1)
+    views = np.round(views, DECIMALS).astype(np.float32)
     chunks = tuple(
         RememberedChunk(
             Chunk(name, "landmark", {

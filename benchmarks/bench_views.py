@@ -3,10 +3,10 @@
     python benchmarks/bench_views.py [--maps PLAN ...] [--buildings N]
 
 Of each two reflexes at doorways of one drive, the agreement of their surroundings and the
-correlation
-of their scans are compared: of the same doorway gone through the same way, or the other way, and of
-different ones. The less often different doorways look as alike as half of the pairs of the same one
-do, the better a view tells.
+correlation of their scans are compared: of the same doorway gone through the same way, or the
+other way, and of different ones. The less often different doorways look as alike as half of the
+pairs of the same one do, the better a view tells. Of the pairs that are alike near by it is told
+how often their vistas contradict, too.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ssrics_like.bench.conditions import NOMINAL
 from ssrics_like.bench.drives import BenchDrive, OnPlan, Simulated, make_drive
 from ssrics_like.cues import read_cue
 from ssrics_like.library import find_cue
-from ssrics_like.memory.surroundings import agreement
+from ssrics_like.memory.surroundings import agreement, vista_contradiction
 from ssrics_like.perception import PerceptionBuffer
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.scenarios.modules import load_perception
@@ -31,6 +31,9 @@ from ssrics_like.scenarios.modules import load_perception
 PURPOSE = 3  # buildings of their own, in which nothing was tuned
 SAME_M, OTHER_M = 0.7, 1.2
 SAME_RAD, BACK_RAD = 0.6, 2.5
+ALIKE = 0.7
+"""Share of directions in which what surrounds two places that are alike agrees."""
+VIEWS = ("surroundings", "scan", "vista")
 PAIRS = ("the same, the same way", "the same, the other way", "different")
 
 
@@ -61,12 +64,15 @@ def compared(drive: BenchDrive, found: dict[str, dict[str, list[float]]]) -> Non
     for i, one in enumerate(around):
         if not i:
             continue
-        alike = agreement(one.view, np.array([other.view for other in around[:i]]))
+        others = np.array([other.view for other in around[:i]])
+        alike, apart = agreement(one.view, others), vista_contradiction(one.view, others)
         for j, other in enumerate(around[:i]):
             pair = pair_of(one, other)
             if pair is not None and not math.isnan(alike[j]):
                 found["surroundings"][pair].append(float(alike[j]))
                 found["scan"][pair].append(float(np.dot(scans[i].view, scans[j].view)))
+            if pair is not None and alike[j] >= ALIKE:
+                found["vista"][pair].append(float(apart[j]))
 
 
 def main() -> int:
@@ -79,19 +85,27 @@ def main() -> int:
         Simulated(drifting, seed, PURPOSE) for seed in range(options.buildings)
     ]
     specs += [OnPlan(plan, 1000, drifting) for plan in options.maps]
-    found = {view: {pair: list[float]() for pair in PAIRS} for view in ("surroundings", "scan")}
+    found = {view: {pair: list[float]() for pair in PAIRS} for view in VIEWS}
     for spec in specs:
         compared(make_drive(spec), found)
     print(
         "| view | pair | pairs | a tenth below | median | different ones as alike as the median |"
     )
     print("|---|---|---|---|---|---|")
+    vistas = found.pop("vista")
     for view, pairs in found.items():
         for pair, values in pairs.items():
             low, middle = np.quantile(values, [0.1, 0.5])
             share = np.mean(np.array(pairs["different"]) >= middle)
             said = "" if pair == "different" else f"{100 * share:.1f} %"
             print(f"| {view} | {pair} | {len(values)} | {low:.2f} | {middle:.2f} | {said} |")
+    print("\n| alike near by | pairs | vistas agree | say nothing | contradict |")
+    print("|---|---|---|---|---|")
+    for pair, values in vistas.items():
+        apart = np.array(values)
+        shares = [np.mean(which) for which in (apart < 0, apart == 0, apart > 0)]
+        print(f"| {pair} | {len(values)} | "
+              + " | ".join(f"{100 * share:.0f} %" for share in shares) + " |")  # fmt: skip
     return 0
 
 

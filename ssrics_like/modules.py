@@ -8,13 +8,13 @@ compared with where the robot expects its landmarks: see `Whereabouts`.
 
 from __future__ import annotations
 
-import math
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 import numpy as np
 
+from ssrics_like.arriving import arrive
 from ssrics_like.decision import Decision
 from ssrics_like.errors import EngineError
 from ssrics_like.expecting import PLACE_OF, Expecting, Look, here_of
@@ -23,7 +23,6 @@ from ssrics_like.memory import (
     DeclarativeMemory,
     Here,
     Home,
-    Hypothesis,
     Listed,
     ListedSimilarity,
     Request,
@@ -37,6 +36,7 @@ from ssrics_like.memory import (
 from ssrics_like.memory.appraisal import Appraisal
 from ssrics_like.memory.passing import Passing
 from ssrics_like.memory.profile import MemoryProfile
+from ssrics_like.memory.surroundings import joined
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.poses import Pose
 from ssrics_like.productions.interface import BufferChunk, MarkRequest, Recall, SlotTest
@@ -251,11 +251,13 @@ class LandmarkModules:
             made = self._declare(name, reflex)
             self._expecting.at(reflex)
             before = self.whereabouts.find(name, here_of(reflex), *self._evidence)
-            self._arrive(name, reflex, before, new=True)
+            arrive(self.topological, name, reflex, before, new=True)
         elif request.outcome == "recognised":
             self._expecting.at(reflex)
             before = self.whereabouts.recognise(name, here_of(reflex), *self._evidence)
-            self._arrive(name, reflex, before, new=False)
+            if self.whereabouts.proven is not None:
+                self._see_more(name, reflex)
+            arrive(self.topological, name, reflex, before, new=False)
         elif request.outcome == "unsure" and self._recalled is not None:
             self._expecting.at(reflex)
             self.whereabouts.doubt(here_of(reflex), *self._evidence)
@@ -286,24 +288,14 @@ class LandmarkModules:
         }
         return BufferChunk("landmark", slots, name)
 
-    def _arrive(self, name: str, reflex: Reflex, before: Hypothesis | None, *, new: bool) -> None:
-        """Note in the graph that the robot came to a landmark, if it was at another before."""
-        if before is None or before.landmark is None:
+    def _see_more(self, name: str, reflex: Reflex) -> None:
+        """Add to what is remembered of a landmark's surroundings what is seen of them now."""
+        known = self.view_of(name)
+        if self._look is None or known is None:
             return
-        if before.landmark == name:
-            self.topological.confirm(name, reflex.t_s)
-            return
-        start, end = before.at.place, reflex.place
-        self.topological.traverse(
-            before.landmark,
-            name,
-            start.distance_m(end),
-            math.atan2(end.y_m - start.y_m, end.x_m - start.x_m) - start.theta_rad,
-            # Rules may decide about two reflexes in either order; the way between is the same.
-            abs(reflex.travelled_m - before.at.travelled_m),
-        )
-        if not new:
-            self.topological.visit(name, reflex.t_s)
+        view = joined(known.descriptor, reflex.view)
+        if view is not None:
+            self.declarative.replace(name, "view", View(known.name, view))
 
     def _likeness_of_places(self, asked: Value) -> Listed:
         return self._expecting.likeness(asked)

@@ -15,4 +15,4 @@ def seen_in_room(place, *, known=36):
     y_m = np.where(sin > 0, max(ABOVE - place.y_m, 0.0), min(BELOW - place.y_m, 0.0))
     lengths = np.minimum(np.abs(x_m / cos), np.abs(y_m / sin)).clip(0.0, 6.0)
     unknown = np.where(np.arange(36) < known, 0.0, 6.0)
-    return np.concatenate([lengths, unknown]).astype(np.float32)
+    return np.concatenate([lengths, unknown, np.zeros(36)]).astype(np.float32)

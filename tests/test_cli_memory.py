@@ -210,7 +210,7 @@ def odd(tmp_path, **changes):
 @pytest.mark.parametrize(
     ("changes", "more", "message"),
     [
-        ({}, (), "its views have 36 numbers, those of this model 72 (perception.view and view_beams)"),
+        ({}, (), "its views have 36 numbers, those of this model 108 (perception.view and view_beams)"),
         ({"frame": "map"}, ("--set", "perception.view=scan"), "its positions are in the frame 'map', those of this run in 'odometry'"),
     ],
 )  # fmt: skip

@@ -29,7 +29,7 @@ STRANGE_M = 5.9
 class Mind:
     """Memories and rules that meet the doorways that a test says."""
 
-    def __init__(self, look=lambda _: np.zeros(72, np.float32)):
+    def __init__(self, look=lambda _: np.zeros(108, np.float32)):
         self.decisions, self.retrievals = [], []
         self.modules = LandmarkModules(
             PROFILE, np.random.default_rng(0), self.decisions.append,
@@ -40,11 +40,11 @@ class Mind:
         )
         self.events = 0
 
-    def meet(self, landmark, t_s, astray_m=0.0, length_m=None):
+    def meet(self, landmark, t_s, astray_m=0.0, length_m=None, vista_m=0.0):
         """Meet a doorway; return what was decided about it."""
         x_m, y_m = PLACES[landmark]
         here = Pose(x_m + astray_m, y_m, 0.0)
-        view = self.view(length_m or LENGTHS_M[landmark])
+        view = self.view(length_m or LENGTHS_M[landmark], vista_m)
         reflex = Reflex(
             event=self.events, scan=self.events, t_s=t_s, pose=here, true_pose=None,
             perceived_s=t_s, travelled_m=20.0 * self.events, modality="laser", novelty=0.9,
@@ -58,8 +58,8 @@ class Mind:
         return made.decision, made.landmark
 
     @staticmethod
-    def view(length_m):
-        return np.repeat([length_m, 0.0], 36).astype(np.float32)
+    def view(length_m, vista_m=0.0):
+        return np.repeat([length_m, 0.0, vista_m], 36).astype(np.float32)
 
     def strangely(self, landmark, t_s):
         """Meet a doorway that looks another, 2.45 standard deviations astray."""
@@ -90,6 +90,17 @@ def test_what_is_recognised_again_and_again_stays_and_gains_permanence():
     # It has lasted nine minutes and will probably last as many more; the other was there once.
     assert modules.appraisal.permanence("L1", 1080.0) > 0.5
     assert modules.appraisal.permanence("L2", 1080.0) == pytest.approx(60 / (60 + 1020), abs=1e-3)
+
+
+def test_what_is_seen_more_of_a_landmark_is_remembered_where_the_robot_knows_to_be():
+    made = mind()
+    for vista_m in (20.0, 15.0):
+        assert made.meet("L1", 700.0 + vista_m, vista_m=vista_m) == ("recognised", "L1")
+    assert made.modules.view_of("L1").descriptor == pytest.approx(made.view(1.0, 20.0))
+    assert made.modules.view_of("L3").descriptor == pytest.approx(made.view(4.0))
+    made.modules.whereabouts.lose()  # what it takes for L1 may be another place
+    made.meet("L1", 800.0, vista_m=30.0)
+    assert made.modules.view_of("L1").descriptor == pytest.approx(made.view(1.0, 20.0))
 
 
 def last_term(made, landmark):

@@ -87,7 +87,7 @@ def test_equal_memories_give_equal_bytes_and_nothing_else_is_left(tmp_path):
 def test_the_file_is_json_with_a_line_for_each_chunk(tmp_path):
     text = saved(tmp_path).read_text()
     data = json.loads(text)
-    assert (data["format"], data["version"], data["saved_s"]) == ("ssrics-memory", 1, 100.0)
+    assert (data["format"], data["version"], data["saved_s"]) == ("ssrics-memory", 2, 100.0)
     assert data["chunks"][0]["ages_s"] == [60.0, 12.5]
     assert data["topology"]["nodes"][0]["origin"] == "run-a/L1"
     assert sum(line.startswith('{"name": "L') for line in text.splitlines()) == 3
@@ -162,6 +162,24 @@ def test_fields_of_arcs_and_landmarks_that_came_later_have_their_defaults(tmp_pa
     assert load_memory_file(path).landmarks == memory().landmarks
 
 
+@pytest.mark.parametrize("length", [72, 36])
+def test_views_of_surroundings_from_before_there_were_vistas_have_none(tmp_path, length):
+    path = saved(tmp_path)
+    data = json.loads(path.read_bytes())
+    data["version"] = 1
+    numbers = [0.5 * i for i in range(length)]
+    for given in data["chunks"]:
+        for value in given["slots"].values():
+            if isinstance(value, dict):
+                value["numbers"] = numbers
+    path.write_text(json.dumps(data))
+    expected = numbers + [0.0] * (36 if length == 72 else 0)
+    slots = [value for each in load_memory_file(path).chunks for value in each.chunk.slots.values()]
+    views = [value for value in slots if isinstance(value, View)]
+    assert views
+    assert all(view.descriptor.tolist() == expected for view in views)
+
+
 def changed(tmp_path, change):
     path = saved(tmp_path)
     data = json.loads(path.read_bytes())
@@ -189,7 +207,7 @@ CHUNK, NODE = ("chunks", 0), ("topology", "nodes", 0)
         (lambda _: [1, 2], "no saved memory: its format is None, expected 'ssrics-memory'"),
         (lambda _: None, "no saved memory: its format is None"),
         (setting("format", value="ssrics-topology"), "its format is 'ssrics-topology'"),
-        (setting("version", value=2), "newer ssrics: its version is 2, this one reads up to 1"),
+        (setting("version", value=3), "newer ssrics: its version is 3, this one reads up to 2"),
         (setting("version", value=True), "damaged: its version is True"),
         (setting("saved_s", value="now"), "saved_s is 'now', expected a number"),
         (setting("saved_s", value=math.inf), "saved_s is inf"),

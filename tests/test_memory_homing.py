@@ -42,9 +42,9 @@ def test_it_is_not_looked_for_farther_than_it_may_be():
 
 
 def test_what_looks_otherwise_or_is_hardly_known_is_not_found():
-    wide = np.concatenate([np.full(36, 6.0), np.zeros(36)]).astype(np.float32)
+    wide = np.concatenate([np.full(36, 6.0), np.zeros(72)]).astype(np.float32)
     assert where_alike(wide, seen_in_room, TRUE) is None
-    dark = np.concatenate([np.full(36, 6.0), np.full(36, 6.0)]).astype(np.float32)
+    dark = np.concatenate([np.full(72, 6.0), np.zeros(36)]).astype(np.float32)
     assert where_alike(dark, seen_in_room, TRUE) is None
     beside = TRUE.onward(Pose(1.2, -0.6, 0.0))
     for known in (FEWEST - 1, FEWEST):

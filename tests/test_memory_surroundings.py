@@ -22,7 +22,7 @@ N = 36
 
 
 def view(lengths, unknown=0.0):
-    return np.concatenate([lengths, np.broadcast_to(unknown, N)]).astype(np.float32)
+    return np.concatenate([lengths, np.broadcast_to(unknown, N), np.zeros(N)]).astype(np.float32)
 
 
 def drawn(seed):
@@ -94,7 +94,7 @@ def test_what_is_unknown_is_not_compared_and_too_little_says_nothing():
 
 
 def test_similarity_goes_from_chance_to_the_same():
-    column = SurroundingsSimilarity(-6.0).column("view", SimilarityScale(0.0, -8.0))
+    column = SurroundingsSimilarity(-6.0, -3.0).column("view", SimilarityScale(0.0, -8.0))
     lengths = np.full(N, 3.0)
     for wrong in (0, 14, 36):  # of 36 directions
         other = np.where(np.arange(N) < wrong, 1.0, lengths)
@@ -110,7 +110,7 @@ def test_similarity_goes_from_chance_to_the_same():
 def test_a_memory_recalls_the_place_with_these_surroundings():
     profile = MemoryProfile(activation_noise=0.0)
     memory = DeclarativeMemory(
-        profile, np.random.default_rng(0), {"view": SurroundingsSimilarity(-6.0)}
+        profile, np.random.default_rng(0), {"view": SurroundingsSimilarity(-6.0, -3.0)}
     )
     for i in range(5):
         memory.add(Chunk(f"L{i}", "landmark", {"view": View(f"v{i}", view(drawn(i)))}), 0.0)
@@ -120,7 +120,7 @@ def test_a_memory_recalls_the_place_with_these_surroundings():
 
 
 def test_what_is_seen_where_a_view_was_taken_counts_for_that_view_if_it_agrees_more():
-    column = SurroundingsSimilarity(-4.0).column("view", SimilarityScale(0.0, -8.0))
+    column = SurroundingsSimilarity(-4.0, -3.0).column("view", SimilarityScale(0.0, -8.0))
     column.append(View("one", view(drawn(1))))
     column.append(None)
     column.append(View("two", view(drawn(2))))

@@ -219,6 +219,15 @@ def test_before_the_first_landmark_there_is_nothing_to_be_in_doubt_about():
     assert whereabouts.hypotheses == ()
 
 
+def test_a_robot_that_may_be_anywhere_is_in_doubt_and_one_that_knows_where_it_is_is_not():
+    whereabouts, names = corridor()
+    whereabouts.expect(here(4.0, 0.0), names)
+    assert not whereabouts.in_doubt
+    whereabouts.lose()
+    whereabouts.expect(here(4.0, 0.0), names)
+    assert whereabouts.in_doubt
+
+
 def anywhere_in(hypotheses):
     return [h.weight for h in hypotheses if h.landmark is None]
 

@@ -46,7 +46,7 @@ def show(memory: Path, *, profile: str = "act-r", pause: float = 0.0, json: Flag
     from ssrics_like.errors import MemoryFileError
     from ssrics_like.memory import load_memory_file
     from ssrics_like.memory.summary import summarised
-    from ssrics_like.perception.surround_view import LENGTH
+    from ssrics_like.perception.profile import SURROUNDINGS_LENGTH
     from ssrics_like.results.files import json_text
     from ssrics_like.scenarios.modules import load_memory
     from ssrics_like.scenarios.remembering import one_memory_file
@@ -61,7 +61,7 @@ def show(memory: Path, *, profile: str = "act-r", pause: float = 0.0, json: Flag
     except ValueError as error:
         raise MemoryFileError(f"{file}: {error}") from None
     # A file does not say what its views are of; scans of as many beams are not usual.
-    rows = summarised(saved, how, surroundings=saved.view_length == LENGTH)
+    rows = summarised(saved, how, surroundings=saved.view_length == SURROUNDINGS_LENGTH)
     if json:
         print(json_text([asdict(row) for row in rows]), end="")
         return

@@ -61,8 +61,9 @@ def where_alike(
     ]
     seen = np.array([look(each) for each in places])
     agreeing = agreement(remembered, seen)
-    directions = len(remembered) // 2
-    known = (seen[:, directions:] < UNKNOWN_M) & (remembered[directions:] < UNKNOWN_M)
+    directions = len(remembered) // 3
+    unknown = slice(directions, 2 * directions)
+    known = (seen[:, unknown] < UNKNOWN_M) & (remembered[unknown] < UNKNOWN_M)
     several = known.sum(axis=1)
     off_m2 = along_m**2 + aside_m**2
     score = several * (agreeing - STRANGE) - 0.5 * off_m2 / ASTRAY_M**2

@@ -31,6 +31,8 @@ class MemoryProfile(MemoryParameters):
         another from the other side.
     surroundings_difference : float
         Similarity of two places whose surroundings agree no more than those of any two.
+    vista_difference : float
+        How much less that is where what is seen in the distance contradicts.
     place_sigma_m, direction_sigma_rad : float
         Standard deviations, metres and radians, of where a landmark is perceived from one visit to
         the next, and of the direction of a doorway.
@@ -58,6 +60,7 @@ class MemoryProfile(MemoryParameters):
     sector_difference: Annotated[float, Field(le=0)] = 0.0
     view_difference: Annotated[float, Field(le=0)] = -2.0
     surroundings_difference: Annotated[float, Field(le=0)] = -6.0
+    vista_difference: Annotated[float, Field(le=0)] = -3.0
     place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 0.15
     direction_sigma_rad: Annotated[float, Field(ge=1e-3, le=1e3)] = 0.25
     place_drift: Annotated[float, Field(ge=0, le=1e3)] = 0.01
@@ -78,7 +81,7 @@ class MemoryProfile(MemoryParameters):
         return {
             "sector": TableSimilarity(dict.fromkeys(pairs, self.sector_difference)),
             "view": (
-                SurroundingsSimilarity(self.surroundings_difference)
+                SurroundingsSimilarity(self.surroundings_difference, self.vista_difference)
                 if surroundings
                 else ViewSimilarity(self.view_difference)
             ),

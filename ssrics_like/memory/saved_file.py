@@ -28,6 +28,7 @@ from ssrics_like.memory.files import (
     parsed_json,
     read_whole,
     shown,
+    uncollected,
     write_whole,
 )
 from ssrics_like.memory.home import Home
@@ -40,7 +41,10 @@ if TYPE_CHECKING:
     from ssrics_like.memory.layout import Placed
 
 FORMAT = "ssrics-memory"
-VERSION = 1
+VERSION = 2
+WITHOUT_VISTA, VISTA = 72, 36
+"""Numbers of a view of surroundings in version 1, and of what has been added since: how far one
+sees from the place."""
 AGE_DECIMALS = 9
 _ENCODER = json.JSONEncoder(allow_nan=False)
 ORIGIN = "origin"
@@ -56,7 +60,8 @@ def save_memory_file(memory: SavedMemory, path: str | Path) -> None:
         If it cannot be written, or a slot holds a number that is not finite.
     """
     path = Path(path)
-    write_whole(path, memory_bytes(memory, path))
+    with uncollected():
+        write_whole(path, memory_bytes(memory, path))
 
 
 def load_memory_file(path: str | Path) -> SavedMemory:
@@ -68,7 +73,8 @@ def load_memory_file(path: str | Path) -> SavedMemory:
         If the file is missing, damaged, of another kind, or of a newer version.
     """
     path = Path(path)
-    return memory_from(path, read_whole(path))
+    with uncollected():
+        return memory_from(path, read_whole(path))
 
 
 def export_graph(memory: SavedMemory, path: str | Path, layout: Mapping[str, Placed]) -> None:
@@ -196,11 +202,14 @@ def memory_from(path: Path, content: bytes) -> SavedMemory:
     topology, origins = _without_origins(path, head["topology"])
     landmarks, arcs = from_node_link(path, topology)
     try:
+        chunks = tuple(_chunk(path, chunk) for chunk in head["chunks"])
+        if head["version"] == 1:
+            chunks = tuple(map(_with_unknown_vista, chunks))
         return SavedMemory(
             saved_s=float(head["saved_s"]),
             frame=head["frame"],
             runs=tuple(_run(path, run) for run in head["runs"]),
-            chunks=tuple(_chunk(path, chunk) for chunk in head["chunks"]),
+            chunks=chunks,
             landmarks=landmarks,
             arcs=arcs,
             origins=origins,
@@ -254,6 +263,16 @@ def _chunk(path: Path, given: Any) -> RememberedChunk:
     ages_s = _numbers(path, f"{at}: ages_s", chunk.get("ages_s"))
     values = {slot: _value(path, f"{at}: {slot}", value) for slot, value in slots.items()}
     return RememberedChunk(Chunk(name, kind, values), tuple(ages_s.tolist()))
+
+
+def _with_unknown_vista(each: RememberedChunk) -> RememberedChunk:
+    slots = {
+        slot: View(value.name, np.pad(value.descriptor, (0, VISTA)))
+        if isinstance(value, View) and len(value.descriptor) == WITHOUT_VISTA
+        else value
+        for slot, value in each.chunk.slots.items()
+    }
+    return replace(each, chunk=replace(each.chunk, slots=slots))
 
 
 def _value(path: Path, at: str, given: Any) -> Value:

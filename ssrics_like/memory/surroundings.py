@@ -9,6 +9,7 @@ import numpy as np
 from ssrics_like.memory.chunks import View
 from ssrics_like.memory.columns import SimilarityScale, SlotColumn
 from ssrics_like.memory.continuous import ViewColumn
+from ssrics_like.memory.vistas import contradiction, farther
 
 if TYPE_CHECKING:
     from typing import Any
@@ -35,6 +36,8 @@ STRANGE, KNOWN = 0.5, 0.8
 """Share of directions that agree in two places that are different, and in one met twice (medians of
 pairs of doorways in simulated buildings, `benchmarks/bench_views.py`)."""
 NEITHER = 0.5
+ALIKE = 0.6
+"""Two views of one place that agree so far tell how one of them is turned."""
 
 
 class SurroundingsSimilarity:
@@ -44,21 +47,34 @@ class SurroundingsSimilarity:
     ----------
     difference : float
         Similarity where no more directions agree than by chance.
+    vista_difference : float
+        By how much it is less where what is seen in the distance contradicts.
     """
 
-    def __init__(self, difference: float) -> None:
+    def __init__(self, difference: float, vista_difference: float) -> None:
         self._difference = difference
+        self._vista_difference = vista_difference
 
     def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
         """Make an empty column for the slot of that name."""
-        return SurroundingsColumn(slot, scale._replace(different=self._difference))
+        return SurroundingsColumn(
+            slot, scale._replace(different=self._difference), self._vista_difference
+        )
 
 
 class SurroundingsColumn(ViewColumn):
-    """Surroundings of many places: lengths all around, then what is unknown of them."""
+    """Surroundings of many places: lengths all around, what is unknown of them, and vistas.
 
-    def __init__(self, slot: str, scale: SimilarityScale) -> None:
+    Parameters
+    ----------
+    slot, scale : as for `ViewColumn`
+    vista_difference : float
+        As for `SurroundingsSimilarity`.
+    """
+
+    def __init__(self, slot: str, scale: SimilarityScale, vista_difference: float) -> None:
         super().__init__(slot, scale)
+        self._vista_difference = vista_difference
         self._turned: _Places | None = None
         self._row_of: dict[str, int] = {}
 
@@ -80,11 +96,12 @@ class SurroundingsColumn(ViewColumn):
         return view.descriptor
 
     def similarity(self, requested: Value) -> NDArray[np.float64]:
-        """``different + (equal - different) * u`` for each place, shape (n,).
+        """``different + (equal - different) * u + vista_difference * v``, shape (n,).
 
         u is 0 where half of the directions agree or fewer, 1 where 80 % do or more, and 0.5 where
         too few can be compared. Where something is seen now where a view was taken, that counts if
-        it agrees more: the place is perceived astray then.
+        it agrees more: the place is perceived astray then. v is what `contradiction` says of places
+        with u above 0. It is not above that of equal ones.
         """
         self.check(requested)
         assert isinstance(requested, View)
@@ -92,14 +109,16 @@ class SurroundingsColumn(ViewColumn):
             return np.full(len(self._views), self._scale.different)
         if self._turned is None:
             self._turned = _by_direction(self._rows.used)
-        agreeing = _agreement(requested.descriptor, self._turned)
+        agreeing, turns = _agreement(requested.descriptor, self._turned)
         for name, seen in requested.there.items():
             if (row := self._row_of.get(name)) is not None:
                 again = agreement(seen, self._rows.used[row : row + 1])[0]
                 agreeing[row] = np.fmax(agreeing[row], again)
         u = np.clip((agreeing - STRANGE) / (KNOWN - STRANGE), 0.0, 1.0)
         u[np.isnan(agreeing)] = NEITHER
-        return np.asarray(self._scale.different + (self._scale.equal - self._scale.different) * u)
+        similarity = self._scale.different + (self._scale.equal - self._scale.different) * u
+        v = _contradiction(requested.descriptor, self._turned, agreeing, turns)
+        return np.minimum(similarity + self._vista_difference * v, self._scale.equal)
 
 
 def agreement(view: NDArray[np.float32], places: NDArray[np.float32]) -> NDArray[np.float64]:
@@ -111,9 +130,9 @@ def agreement(view: NDArray[np.float32], places: NDArray[np.float32]) -> NDArray
 
     Parameters
     ----------
-    view : ndarray, shape (2 directions,)
+    view : ndarray, shape (3 directions,)
         Of one place.
-    places : ndarray, shape (n, 2 directions)
+    places : ndarray, shape (n, 3 directions)
         Of others.
 
     Returns
@@ -121,7 +140,56 @@ def agreement(view: NDArray[np.float32], places: NDArray[np.float32]) -> NDArray
     ndarray, shape (n,), float64
         The best of all ways of looking at it.
     """
-    return _agreement(view, _by_direction(places))
+    return _agreement(view, _by_direction(places))[0]
+
+
+def vista_contradiction(
+    view: NDArray[np.float32], places: NDArray[np.float32]
+) -> NDArray[np.float64]:
+    """Return how far what is seen in the distance contradicts, of places whose surroundings agree.
+
+    Parameters
+    ----------
+    view, places : as for `agreement`
+
+    Returns
+    -------
+    ndarray, shape (n,), float64
+        As `vistas.contradiction`.
+    """
+    turned = _by_direction(places)
+    return _contradiction(view, turned, *_agreement(view, turned))
+
+
+def joined(
+    remembered: NDArray[np.float32], seen: NDArray[np.float32]
+) -> NDArray[np.float32] | None:
+    """Add to what is remembered of a place what is seen of it now.
+
+    Parameters
+    ----------
+    remembered, seen : ndarray, shape (3 directions,)
+        Views of one place.
+
+    Returns
+    -------
+    ndarray, shape (3 directions,), or None
+        The view remembered; where it is unknown, the one seen; and the farther vista of both. None
+        if they look too different to tell how one is turned to the other.
+    """
+    lengths, unknown, vista = remembered.reshape(3, -1)
+    if (unknown >= UNKNOWN_M).all():
+        return seen
+    agreeing, turns = _agreement(seen, _by_direction(remembered[np.newaxis]))
+    if not agreeing[0] >= ALIKE:
+        return None
+    lengths_seen, unknown_seen, vista_seen = np.roll(seen.reshape(3, -1), turns[0], axis=1)
+    better = unknown_seen < unknown
+    return np.concatenate([
+        np.where(better, lengths_seen, lengths),
+        np.where(better, unknown_seen, unknown),
+        farther(vista, vista_seen),
+    ])  # fmt: skip
 
 
 class _Places(NamedTuple):
@@ -135,20 +203,24 @@ class _Places(NamedTuple):
         By how much a direction agrees less for each metre of difference.
     known : ndarray of float32
         1 for known, else 0.
+    vistas : ndarray of float32
+        Metres; 0 where nothing was seen.
     """
 
     lengths: NDArray[np.float32]
     per_m: NDArray[np.float32]
     known: NDArray[np.float32]
+    vistas: NDArray[np.float32]
 
 
 def _by_direction(places: NDArray[np.float32]) -> _Places:
-    lengths, unknown = np.split(places.T, 2)
+    lengths, unknown, vistas = np.split(places.T, 3)
     known = unknown < UNKNOWN_M
     return _Places(
         np.ascontiguousarray(np.where(known, lengths, np.float32(np.inf))),
         np.ascontiguousarray(_per_m(lengths)),
         np.ascontiguousarray(known, np.float32),
+        np.ascontiguousarray(vistas),
     )
 
 
@@ -156,20 +228,35 @@ def _per_m(lengths: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
     return np.asarray(1.0 / np.maximum(SAME_M, SAME * lengths), np.float32)
 
 
-def _agreement(view: NDArray[np.float32], places: _Places) -> NDArray[np.float64]:
+def _agreement(
+    view: NDArray[np.float32], places: _Places
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return what `agreement` does, and by how many directions the view is turned then."""
     # Compiled code is loaded only where it is needed.
     from ssrics_like.memory import surroundings_kernels  # noqa: PLC0415
 
     directions = len(places.lengths)
-    lengths, seen = view[:directions].astype(np.float64), view[directions:] < UNKNOWN_M
+    lengths = view[:directions].astype(np.float64)
+    seen = view[directions : 2 * directions] < UNKNOWN_M
     looked = np.empty((len(AHEAD_M), directions))
     for ahead_m, out in zip(AHEAD_M, looked, strict=True):
         surroundings_kernels.looked_at_from(lengths, ahead_m, REACH_M, out)
     turns = [half + aside for half in (0, directions // 2) for aside in range(-ASIDE, ASIDE + 1)]
     views = np.array([np.roll(looked, turn, axis=1) for turn in turns], np.float32)
     best = np.empty(places.lengths.shape[1])
+    turned = np.empty(len(best), np.int64)
     surroundings_kernels.best_agreements(
         views, _per_m(views), np.array([np.roll(seen, turn) for turn in turns]),
-        *places, NEARLY, FEWEST, best,
+        *places[:3], NEARLY, FEWEST, best, turned,
     )  # fmt: skip
-    return np.where(best < 0.0, np.nan, best)
+    return np.where(best < 0.0, np.nan, best), np.array(turns)[turned]
+
+
+def _contradiction(
+    view: NDArray[np.float32],
+    places: _Places,
+    agreeing: NDArray[np.float64],
+    turns: NDArray[np.int64],
+) -> NDArray[np.float64]:
+    vista = view[2 * len(places.lengths) :]
+    return contradiction(vista, turns, places.vistas, agreeing > STRANGE)

@@ -68,6 +68,7 @@ def best_agreements(
     nearly: float,
     fewest: float,
     out: NDArray[np.float64],
+    turned: NDArray[np.int64],
 ) -> None:
     """Compare each view of a place with all others, and keep the best for each.
 
@@ -85,15 +86,20 @@ def best_agreements(
         With fewer directions known of both, two are not compared.
     out : ndarray, shape (places,)
         Takes the share of directions that agree; -1 where nothing could be compared.
+    turned : ndarray, shape (places,)
+        Takes the turn, an index, with which they do.
     """
     directions, places = lengths.shape
     none, zero, one = np.float32(1.0 + nearly), np.float32(0.0), np.float32(1.0)
     agreeing, compared = np.empty(BLOCK, np.float32), np.empty(BLOCK, np.float32)
+    best = np.empty(BLOCK, np.float32)
     out[:] = -1.0
+    turned[:] = 0
     for first in range(0, places, BLOCK):  # a block's sums stay in the nearest cache
         block = min(BLOCK, places - first)
         for turn in range(len(views)):
             compared[:] = zero
+            best[:] = -one
             for i in range(directions):
                 if seen[turn, i]:
                     also = known[i, first : first + block]
@@ -114,4 +120,8 @@ def best_agreements(
                         agreeing[k] += min(one, max(zero, none - less))
                 for k in range(block):
                     if compared[k] >= fewest:
-                        out[first + k] = max(out[first + k], agreeing[k] / compared[k])
+                        best[k] = max(best[k], agreeing[k] / compared[k])
+            for k in range(block):
+                if best[k] > out[first + k]:
+                    out[first + k] = best[k]
+                    turned[first + k] = turn

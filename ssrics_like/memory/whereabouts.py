@@ -92,8 +92,8 @@ class Whereabouts:
 
     @property
     def in_doubt(self) -> bool:
-        """Whether there was more than one hypothesis before what is perceived now."""
-        return len(self._from) > 1
+        """Whether the robot did not know for certain where it was before what is perceived now."""
+        return len(self._from) > 1 or (len(self._from) == 1 and self._from[0].landmark is None)
 
     def place_of(self, landmark: str) -> Link | None:
         """Tell where a landmark most probably is, in the frame of path integration.

@@ -17,7 +17,7 @@ from ssrics_like.perception.sectors import SectorRule
 Anchor = Literal["newest", "middle", "oldest"]
 Along = Literal["scans", "metres"]
 ViewOf = Literal["scan", "surroundings"]
-SURROUNDINGS_LENGTH = 72  # of `surround_view`, which is compiled and loaded late
+SURROUNDINGS_LENGTH = 108  # of `Surroundings.view_of`, which is compiled and loaded late
 EgomotionOf = Literal["odometry", "laser"]
 Fraction = Annotated[float, Field(gt=0.0, lt=1.0)]
 

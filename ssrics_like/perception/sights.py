@@ -15,8 +15,7 @@ from ssrics_like.perception.gap import FEATURES
 from ssrics_like.perception.novelty_watch import Moment
 from ssrics_like.perception.panorama import panorama
 from ssrics_like.perception.structure import StructureWatch, corridor_or_room
-from ssrics_like.perception.surround_view import UNSEEN
-from ssrics_like.perception.surroundings import Described, Surroundings
+from ssrics_like.perception.surroundings import UNSEEN, Described, Surroundings
 
 if TYPE_CHECKING:
     import numpy as np
@@ -89,8 +88,9 @@ class Sights:
         novel: list[Moment] = []
         doorways: list[Moment] = []
         for described in self._surroundings.update(
-            observation.pose, observation.scan.bearings_rad, sensed.ranges_m, sensed
-        ):
+            observation.pose, observation.scan.bearings_rad, sensed.ranges_m, sensed,
+            observation.scan.ranges_m,
+        ):  # fmt: skip
             self._recent.append(described)
             here = described.place.nearest
             if self._structure is not None:

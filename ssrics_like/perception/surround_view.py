@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 DIRECTIONS = 36
 """Ten degrees apart."""
 REACH_M = 6.0
-LENGTH = 2 * DIRECTIONS
-UNSEEN = np.full(LENGTH, REACH_M, np.float32)
-"""The view of a place of which nothing is known."""
 
 
 def surround_view(wide: WideMap, place: Pose, travelled_m: float) -> NDArray[np.float32]:

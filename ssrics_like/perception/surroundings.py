@@ -11,7 +11,8 @@ import numpy as np
 from ssrics_like.perception.gap import gap_features
 from ssrics_like.perception.layout import layout_measures
 from ssrics_like.perception.local_map import LocalMap
-from ssrics_like.perception.surround_view import surround_view
+from ssrics_like.perception.surround_view import DIRECTIONS, REACH_M, surround_view
+from ssrics_like.perception.vista import Vista
 from ssrics_like.perception.walk import STEP_M, Walk
 from ssrics_like.perception.wide_map import WideMap
 
@@ -23,6 +24,12 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+UNSEEN = np.concatenate(
+    [np.full(2 * DIRECTIONS, REACH_M, np.float32), np.zeros(DIRECTIONS, np.float32)]
+)
+"""The view of a place of which nothing is known."""
+DECIMALS = 3
+"""Views are told to the millimetre: no laser knows more, and files of memory stay small."""
 LAG_M = 0.4
 """A place is described when the robot is so far past it: what lies behind it has then been seen."""
 MOVED_M, TURNED_RAD = 0.02, 0.026
@@ -68,6 +75,7 @@ class Surroundings(Generic[T]):
         self._layout = layout
         self._map = LocalMap()
         self._wide = WideMap() if wide else None
+        self._vista = Vista()
         self._walk: Walk[T] = Walk(STEP_M, LAG_M)
         self._mapped: tuple[float, float] | None = None
 
@@ -82,6 +90,7 @@ class Surroundings(Generic[T]):
         bearings_rad: NDArray[np.float64],
         ranges_m: NDArray[np.float64],
         sensed: T,
+        readings_m: NDArray[np.float64] | None = None,
     ) -> list[Described[T]]:
         """Take a scan and describe the places that the robot is now far enough past.
 
@@ -93,10 +102,13 @@ class Surroundings(Generic[T]):
             The conditioned scan.
         sensed : object
             Whatever is to be handed out with the places that lie nearest to this pose.
+        readings_m : ndarray, shape (beams,), float64
+            The scan as it came; without it nothing is seen in the distance.
         """
         if not self._walk.advance(pose, sensed):
             self._map = LocalMap()
             self._wide = None if self._wide is None else WideMap()
+            self._vista = Vista()
         here_m = self._walk.travelled_m
         if (
             self._mapped is None
@@ -106,13 +118,23 @@ class Surroundings(Generic[T]):
             self._map.take(pose, bearings_rad, ranges_m, here_m)
             if self._wide is not None:
                 self._wide.take(pose, bearings_rad, ranges_m, here_m)
+            if readings_m is not None:
+                self._vista.take(pose, bearings_rad, readings_m, here_m)
             self._mapped = (here_m, pose.theta_rad)
         return [self._described(place) for place in self._walk.places()]
 
     def view_of(self, place: Pose) -> NDArray[np.float32]:
-        """Describe what surrounds a place near the robot, as `surround_view`; needs a wide map."""
+        """Describe what surrounds a place near the robot; needs a wide map.
+
+        Returns
+        -------
+        ndarray, shape (108,), float32
+            As `surround_view`; then as `Vista.view_of`. Metres.
+        """
         assert self._wide is not None
-        return surround_view(self._wide, place, self._walk.travelled_m)
+        near = surround_view(self._wide, place, self._walk.travelled_m)
+        view = np.concatenate([near, self._vista.view_of(place)])
+        return np.asarray(np.round(view, DECIMALS))
 
     def _described(self, place: Place[T]) -> Described[T]:
         here_m = self._walk.travelled_m

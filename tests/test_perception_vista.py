@@ -1,0 +1,80 @@
+"""The vista of a place: how far one sees from it, and whether it ends there."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ssrics_like.perception.observation import Pose
+from ssrics_like.perception.vista import DIRECTIONS, FARTHEST_M, MEMORY_M, NEAR_M, Vista
+from ssrics_like.perception.vista_kernels import farther
+
+BEARINGS = np.radians(np.arange(-89.5, 90.0))
+LENGTH_M, HALF_M = 30.0, 1.2  # a hallway, along x
+
+
+def hallway(pose, end_m=LENGTH_M, bearings=BEARINGS):
+    """Ranges in a hallway that ends at x = end_m, and 10 m behind its beginning."""
+    angles = pose.theta_rad + bearings
+    cos, sin = np.cos(angles), np.sin(angles)
+    with np.errstate(divide="ignore"):
+        along = np.where(cos > 0, (end_m - pose.x_m) / cos, (-10.0 - pose.x_m) / cos)
+        aside = np.where(sin > 0, (HALF_M - pose.y_m) / sin, (-HALF_M - pose.y_m) / sin)
+    return np.minimum(along, np.where(sin == 0.0, np.inf, aside))
+
+
+def vista_after(*poses, ranges=None):
+    vista = Vista()
+    for i, pose in enumerate(poses):
+        vista.take(pose, BEARINGS, hallway(pose) if ranges is None else ranges, 0.2 * i)
+    return vista
+
+
+def test_one_sees_to_the_end_of_the_hallway():
+    vista = vista_after(Pose(0.3, 0.1, 0.0))
+    ahead = vista.view_of(Pose(0.0, 0.0, 0.0))
+    assert ahead[0] == pytest.approx(LENGTH_M, abs=0.1)
+    assert np.all(ahead[10:27] == 0.0)  # behind
+    assert 0.0 < ahead[7] < 2.0
+    assert ahead[1] < 0.0  # along the wall it goes on at least so far
+    turned = vista.view_of(Pose(0.0, 0.0, math.pi / 2))
+    assert turned[27] == pytest.approx(LENGTH_M, abs=0.1)
+
+
+def test_it_is_seen_from_near_the_place_only_and_forgotten_on_the_way():
+    place = Pose(0.0, 0.0, 0.0)
+    assert not vista_after(Pose(NEAR_M + 0.1, 0.0, 0.0)).view_of(place).any()
+    vista = vista_after(place)
+    assert vista.view_of(place).any()
+    vista.take(Pose(5.0, 0.0, 0.0), BEARINGS, hallway(Pose(5.0, 0.0, 0.0)), MEMORY_M + 0.1)
+    assert not vista.view_of(place).any()
+
+
+def test_a_robot_that_stands_keeps_one_scan():
+    vista = Vista()
+    for end_m in (LENGTH_M, 40.0):
+        vista.take(Pose(0.0, 0.0, 0.0), BEARINGS, hallway(Pose(0.0, 0.0, 0.0), end_m), 0.0)
+    assert vista.view_of(Pose(0.0, 0.0, 0.0))[0] == pytest.approx(LENGTH_M, abs=0.1)
+
+
+@pytest.mark.parametrize("reading", [0.0, -1.0, FARTHEST_M, 81.83, math.inf, math.nan])
+def test_readings_that_are_none_say_nothing(reading):
+    vista = vista_after(Pose(0.0, 0.0, 0.0), ranges=np.full(len(BEARINGS), reading))
+    assert not vista.view_of(Pose(0.0, 0.0, 0.0)).any()
+
+
+def test_a_lone_beam_is_no_end():
+    pose = Pose(0.0, 0.0, 0.0)
+    ranges = np.full(len(BEARINGS), 5.0)
+    ranges[90] = 25.0
+    seen = vista_after(pose, ranges=ranges).view_of(pose)
+    assert seen[0] == pytest.approx(-25.0, abs=0.01)
+    assert seen.shape == (DIRECTIONS,)
+    assert seen[9] == pytest.approx(5.0, abs=0.01)
+
+
+def test_an_end_stays_what_it_is_if_it_may_be_a_little_farther():
+    assert farther(30.0, -32.0) == farther(-32.0, 30.0) == 30.0
+    assert farther(30.0, -40.0) == farther(-40.0, 30.0) == -40.0
+    assert farther(30.0, 31.0) == 31.0
+    assert farther(0.0, -3.0) == -3.0
