@@ -23,7 +23,7 @@ from ssrics_like.perception.reflex import Reflex
 from ssrics_like.poses import Pose
 
 Look: TypeAlias = Callable[[Pose], NDArray[np.float32]]
-"""Tells what surrounds a place, in the frame of path integration; shape (72,)."""
+"""Tells what surrounds a place, in the frame of path integration; shape (108,)."""
 PLACE_OF = "place-of-"
 UNSETTLED = 0.5  # a robot that is lost is not more confident than this
 
@@ -67,7 +67,7 @@ class Expecting:
 
         Returns
         -------
-        dict of str to ndarray, shape (72,), float32
+        dict of str to ndarray, shape (108,), float32
             By the names of their views: what surrounds these places now.
         """
         self.at(reflex)

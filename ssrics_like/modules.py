@@ -255,8 +255,7 @@ class LandmarkModules:
         elif request.outcome == "recognised":
             self._expecting.at(reflex)
             before = self.whereabouts.recognise(name, here_of(reflex), *self._evidence)
-            if self.whereabouts.proven is not None:
-                self._see_more(name, reflex)
+            self._see_more(name, reflex)
             arrive(self.topological, name, reflex, before, new=False)
         elif request.outcome == "unsure" and self._recalled is not None:
             self._expecting.at(reflex)
@@ -290,10 +289,13 @@ class LandmarkModules:
 
     def _see_more(self, name: str, reflex: Reflex) -> None:
         """Add to what is remembered of a landmark's surroundings what is seen of them now."""
-        known = self.view_of(name)
-        if self._look is None or known is None:
+        here, known = self.whereabouts.proven, self.view_of(name)
+        if here is None or here.landmark != name or known is None:
             return
-        view = joined(known.descriptor, reflex.view)
+        if self._look is None or not reflex.directed:
+            return
+        turn_rad = reflex.place.theta_rad - here.fix.pose.theta_rad
+        view = joined(known.descriptor, reflex.view, turn_rad)
         if view is not None:
             self.declarative.replace(name, "view", View(known.name, view))
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ssrics_like.errors import EngineError, nearest
@@ -209,7 +210,8 @@ class Wayfinder:
             return False
         if not self._perception.looks_round:
             return False
-        found = where_alike(view.descriptor, self._perception.view_of, believed)
+        look = partial(self._perception.view_of, far=False)
+        found = where_alike(view.descriptor, look, believed)
         if found is None:
             return False
         now.corrected += 1

@@ -162,18 +162,18 @@ def test_fields_of_arcs_and_landmarks_that_came_later_have_their_defaults(tmp_pa
     assert load_memory_file(path).landmarks == memory().landmarks
 
 
-@pytest.mark.parametrize("length", [72, 36])
-def test_views_of_surroundings_from_before_there_were_vistas_have_none(tmp_path, length):
+@pytest.mark.parametrize(("length", "least"), [(72, 0.0), (72, -0.5), (36, 0.0)])
+def test_views_of_surroundings_from_before_there_were_vistas_have_none(tmp_path, length, least):
     path = saved(tmp_path)
     data = json.loads(path.read_bytes())
     data["version"] = 1
-    numbers = [0.5 * i for i in range(length)]
-    for given in data["chunks"]:
-        for value in given["slots"].values():
+    numbers = [0.5 * i + least for i in range(length)]
+    for each in data["chunks"]:
+        for value in each["slots"].values():
             if isinstance(value, dict):
                 value["numbers"] = numbers
     path.write_text(json.dumps(data))
-    expected = numbers + [0.0] * (36 if length == 72 else 0)
+    expected = numbers + [0.0] * (36 if length == 72 and least == 0.0 else 0)
     slots = [value for each in load_memory_file(path).chunks for value in each.chunk.slots.values()]
     views = [value for value in slots if isinstance(value, View)]
     assert views

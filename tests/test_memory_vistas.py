@@ -13,7 +13,6 @@ from ssrics_like.memory.vistas import (
     FAR_M,
     FARTHER,
     LESS_FAR,
-    MOST,
     SAME,
     SAME_M,
     contradiction,
@@ -60,8 +59,7 @@ def naive(seen, remembered, turn):
                 counts[above] += longest > 0
             else:
                 counts[below] += peak > 0
-    shares = [min(n, most) / most for n, most in zip(counts.values(), MOST, strict=True)]
-    return min(1.0, np.dot(shares, (AGREEING, FARTHER, LESS_FAR)))
+    return np.dot([n > 0 for n in counts.values()], (AGREEING, FARTHER, LESS_FAR))
 
 
 @settings(max_examples=60, deadline=None)
@@ -145,18 +143,41 @@ def test_a_vista_tells_places_apart_that_are_alike_near_by():
     assert d <= -4.0
 
 
-def test_what_is_seen_of_a_place_is_added_turned_as_it_is():
+def test_a_place_that_looks_the_same_from_both_sides_is_compared_from_both():
+    hallway = np.where(np.arange(N) % 18 < 3, 6.0, 1.2)  # nearly the same half a turn aside
+    far, near = vista(d1=30.0, d19=14.0), vista(d1=14.0, d19=30.0)
+    column = SurroundingsSimilarity(-6.0, -3.0).column("view", SimilarityScale(-1.0, -8.0))
+    column.append(View("A", view(hallway, 0.0, far)))
+    for turned in (far, near):
+        seen = column.similarity(View("seen", view(hallway, 0.0, turned)))
+        assert seen == pytest.approx(-1.0)
+    nearer = column.similarity(View("seen", view(hallway, 0.0, vista(d1=22.0))))
+    assert nearer == pytest.approx(-1.0 - 3.0 * LESS_FAR)
+
+
+def test_what_is_seen_where_the_place_lies_has_its_own_vista():
+    column = SurroundingsSimilarity(-6.0, -3.0).column("view", SimilarityScale(0.0, -8.0))
+    column.append(View("A", view(room(), 0.0, vista(d9=30.0))))
+    askew = view(np.roll(room(), 5), 0.0, np.roll(vista(d9=30.0), 5))
+    there = {"A": view(room(), 0.0, vista(d9=30.0))}
+    assert column.similarity(View("seen", askew)) < -3.0
+    assert column.similarity(View("seen", askew, there)) == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("half", [0, 1])
+def test_what_is_seen_of_a_place_is_added_turned_as_it_is(half):
     unknown = np.where(np.arange(N) < 8, 3.0, 0.0)
-    remembered = view(np.where(unknown, 1.0, room()), unknown, vista(d9=-20.0))
-    turned = [np.roll(each, 18) for each in (room(), np.zeros(N), vista(d9=30.0, d27=13.0))]
-    found = joined(remembered, view(*turned))
-    assert found == pytest.approx(view(room(), 0.0, vista(d9=30.0, d27=13.0)))
+    square = np.full(N, 3.0)  # by which no side is told from the other
+    remembered = view(np.where(unknown, 1.0, square), unknown, vista(d9=-20.0))
+    far = vista(d9=30.0, d27=13.0)
+    found = joined(remembered, view(square, 0.0, np.roll(far, 18 * half)), half * np.pi + 0.2)
+    assert found == pytest.approx(view(square, 0.0, far))
 
 
 def test_a_place_of_which_nothing_is_known_takes_the_first_view():
     seen = view(room(), 0.0, vista(d9=30.0))
     nothing = view(np.full(N, 6.0), 6.0, np.zeros(N))
-    assert joined(nothing, seen) is seen
-    assert joined(seen, nothing) is None
-    assert joined(seen, view(room(3), 0.0, vista())) is None
+    assert joined(nothing, seen, np.pi / 2) is seen
+    assert joined(seen, nothing, 0.0) is None
+    assert joined(seen, view(room(3), 0.0, vista()), 0.0) is None
     assert UNKNOWN_M < 6.0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ssrics_like.perception.observation import Pose
-from ssrics_like.perception.vista import DIRECTIONS, FARTHEST_M, MEMORY_M, NEAR_M, Vista
+from ssrics_like.perception.vista import DIRECTIONS, FARTHEST_M, MEMORY_M, MOST, NEAR_M, Vista
 from ssrics_like.perception.vista_kernels import farther
 
 BEARINGS = np.radians(np.arange(-89.5, 90.0))
@@ -55,6 +55,14 @@ def test_a_robot_that_stands_keeps_one_scan():
     for end_m in (LENGTH_M, 40.0):
         vista.take(Pose(0.0, 0.0, 0.0), BEARINGS, hallway(Pose(0.0, 0.0, 0.0), end_m), 0.0)
     assert vista.view_of(Pose(0.0, 0.0, 0.0))[0] == pytest.approx(LENGTH_M, abs=0.1)
+
+
+def test_a_robot_that_turns_and_turns_keeps_so_many_scans():
+    vista = Vista()
+    for i in range(2 * MOST):
+        pose = Pose(0.0, 0.0, 0.1 * i)
+        vista.take(pose, BEARINGS, hallway(pose), 0.0)
+    assert len(vista._kept) == MOST
 
 
 @pytest.mark.parametrize("reading", [0.0, -1.0, FARTHEST_M, 81.83, math.inf, math.nan])

@@ -66,7 +66,8 @@ class Senses:
         self.carried = 0
         self.off = Pose(0.0, 0.0, 0.0)
 
-    def view_of(self, place):
+    def view_of(self, place, *, far=True):
+        del far
         return seen_in_room(Pose(place.x_m - self.off.x_m, place.y_m - self.off.y_m, 0.0))
 
 

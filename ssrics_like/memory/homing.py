@@ -40,7 +40,7 @@ def where_alike(
 
     Parameters
     ----------
-    remembered : ndarray, shape (2 directions,)
+    remembered : ndarray, shape (3 directions,)
         Its surroundings.
     look : callable
         Tells what surrounds a place, in its own frame.

@@ -268,11 +268,16 @@ def _chunk(path: Path, given: Any) -> RememberedChunk:
 def _with_unknown_vista(each: RememberedChunk) -> RememberedChunk:
     slots = {
         slot: View(value.name, np.pad(value.descriptor, (0, VISTA)))
-        if isinstance(value, View) and len(value.descriptor) == WITHOUT_VISTA
+        if isinstance(value, View) and _surrounds(value)
         else value
         for slot, value in each.chunk.slots.items()
     }
     return replace(each, chunk=replace(each.chunk, slots=slots))
+
+
+def _surrounds(view: View) -> bool:
+    """Tell a view of surroundings, all lengths, from one of a scan, whose mean is 0."""
+    return len(view.descriptor) == WITHOUT_VISTA and bool((view.descriptor >= 0.0).all())
 
 
 def _value(path: Path, at: str, given: Any) -> Value:

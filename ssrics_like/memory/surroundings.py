@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -36,6 +37,8 @@ STRANGE, KNOWN = 0.5, 0.8
 """Share of directions that agree in two places that are different, and in one met twice (medians of
 pairs of doorways in simulated buildings, `benchmarks/bench_views.py`)."""
 NEITHER = 0.5
+SIDES = 0.05
+"""A place of which the two sides agree to so much looks the same from both."""
 ALIKE = 0.6
 """Two views of one place that agree so far tell how one of them is turned."""
 
@@ -101,7 +104,7 @@ class SurroundingsColumn(ViewColumn):
         u is 0 where half of the directions agree or fewer, 1 where 80 % do or more, and 0.5 where
         too few can be compared. Where something is seen now where a view was taken, that counts if
         it agrees more: the place is perceived astray then. v is what `contradiction` says of places
-        with u above 0. It is not above that of equal ones.
+        of which more than half of the directions agree. It is not above that of equal ones.
         """
         self.check(requested)
         assert isinstance(requested, View)
@@ -109,15 +112,15 @@ class SurroundingsColumn(ViewColumn):
             return np.full(len(self._views), self._scale.different)
         if self._turned is None:
             self._turned = _by_direction(self._rows.used)
-        agreeing, turns = _agreement(requested.descriptor, self._turned)
+        agreeing, v = _compared(requested.descriptor, self._turned)
         for name, seen in requested.there.items():
             if (row := self._row_of.get(name)) is not None:
-                again = agreement(seen, self._rows.used[row : row + 1])[0]
-                agreeing[row] = np.fmax(agreeing[row], again)
+                again, apart = _compared(seen, _by_direction(self._rows.used[row : row + 1]))
+                if again[0] > agreeing[row] or np.isnan(agreeing[row]):
+                    agreeing[row], v[row] = again[0], apart[0]
         u = np.clip((agreeing - STRANGE) / (KNOWN - STRANGE), 0.0, 1.0)
         u[np.isnan(agreeing)] = NEITHER
         similarity = self._scale.different + (self._scale.equal - self._scale.different) * u
-        v = _contradiction(requested.descriptor, self._turned, agreeing, turns)
         return np.minimum(similarity + self._vista_difference * v, self._scale.equal)
 
 
@@ -140,7 +143,7 @@ def agreement(view: NDArray[np.float32], places: NDArray[np.float32]) -> NDArray
     ndarray, shape (n,), float64
         The best of all ways of looking at it.
     """
-    return _agreement(view, _by_direction(places))[0]
+    return _best(_agreement(view, _by_direction(places))[0])
 
 
 def vista_contradiction(
@@ -157,12 +160,11 @@ def vista_contradiction(
     ndarray, shape (n,), float64
         As `vistas.contradiction`.
     """
-    turned = _by_direction(places)
-    return _contradiction(view, turned, *_agreement(view, turned))
+    return _compared(view, _by_direction(places))[1]
 
 
 def joined(
-    remembered: NDArray[np.float32], seen: NDArray[np.float32]
+    remembered: NDArray[np.float32], seen: NDArray[np.float32], turn_rad: float
 ) -> NDArray[np.float32] | None:
     """Add to what is remembered of a place what is seen of it now.
 
@@ -170,20 +172,27 @@ def joined(
     ----------
     remembered, seen : ndarray, shape (3 directions,)
         Views of one place.
+    turn_rad : float
+        By how much the frame in which it is seen is turned against the one remembered, nearly.
 
     Returns
     -------
     ndarray, shape (3 directions,), or None
-        The view remembered; where it is unknown, the one seen; and the farther vista of both. None
-        if they look too different to tell how one is turned to the other.
+        The view remembered; the one seen, where less of that is unknown; and the farther vista of
+        both. The one seen, if nothing was remembered. None if they look too different to tell how
+        exactly one is turned to the other.
     """
     lengths, unknown, vista = remembered.reshape(3, -1)
     if (unknown >= UNKNOWN_M).all():
-        return seen
+        return seen  # in the frame of the doorway, as all others are
     agreeing, turns = _agreement(seen, _by_direction(remembered[np.newaxis]))
-    if not agreeing[0] >= ALIKE:
+    as_it_is, half_a_turn_aside = np.nan_to_num(agreeing[:, 0], nan=0.0).tolist()
+    half = int(half_a_turn_aside > as_it_is)
+    if abs(half_a_turn_aside - as_it_is) < SIDES:  # it looks the same from both sides
+        half = int(math.cos(turn_rad) < 0.0)
+    if not agreeing[half, 0] >= ALIKE:
         return None
-    lengths_seen, unknown_seen, vista_seen = np.roll(seen.reshape(3, -1), turns[0], axis=1)
+    lengths_seen, unknown_seen, vista_seen = np.roll(seen.reshape(3, -1), turns[half, 0], axis=1)
     better = unknown_seen < unknown
     return np.concatenate([
         np.where(better, lengths_seen, lengths),
@@ -231,7 +240,13 @@ def _per_m(lengths: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
 def _agreement(
     view: NDArray[np.float32], places: _Places
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Return what `agreement` does, and by how many directions the view is turned then."""
+    """Compare a view with places as they are, and from their other sides.
+
+    Returns
+    -------
+    agreeing, turns : ndarray, shape (2, n)
+        As `agreement` for each of the two; by how many directions the view is turned then.
+    """
     # Compiled code is loaded only where it is needed.
     from ssrics_like.memory import surroundings_kernels  # noqa: PLC0415
 
@@ -241,22 +256,37 @@ def _agreement(
     looked = np.empty((len(AHEAD_M), directions))
     for ahead_m, out in zip(AHEAD_M, looked, strict=True):
         surroundings_kernels.looked_at_from(lengths, ahead_m, REACH_M, out)
-    turns = [half + aside for half in (0, directions // 2) for aside in range(-ASIDE, ASIDE + 1)]
-    views = np.array([np.roll(looked, turn, axis=1) for turn in turns], np.float32)
-    best = np.empty(places.lengths.shape[1])
-    turned = np.empty(len(best), np.int64)
-    surroundings_kernels.best_agreements(
-        views, _per_m(views), np.array([np.roll(seen, turn) for turn in turns]),
-        *places[:3], NEARLY, FEWEST, best, turned,
-    )  # fmt: skip
-    return np.where(best < 0.0, np.nan, best), np.array(turns)[turned]
+    best = np.empty((2, places.lengths.shape[1]))
+    turns = np.empty(best.shape, np.int64)
+    for half, (shares, turned) in enumerate(zip(best, turns, strict=True)):
+        asides = half * directions // 2 + np.array(sorted(range(-ASIDE, ASIDE + 1), key=abs))
+        views = np.array([np.roll(looked, turn, axis=1) for turn in asides], np.float32)
+        surroundings_kernels.best_agreements(
+            views, _per_m(views), np.array([np.roll(seen, turn) for turn in asides]),
+            *places[:3], NEARLY, FEWEST, shares, turned,
+        )  # fmt: skip
+        turned[:] = asides[turned]
+    return np.where(best < 0.0, np.nan, best), turns
 
 
-def _contradiction(
-    view: NDArray[np.float32],
-    places: _Places,
-    agreeing: NDArray[np.float64],
-    turns: NDArray[np.int64],
-) -> NDArray[np.float64]:
+def _best(agreeing: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.fmax(*agreeing))
+
+
+def _compared(
+    view: NDArray[np.float32], places: _Places
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return how far surroundings agree, and how far vistas contradict; each of shape (n,).
+
+    A place that looks the same from both sides near by does not say from which one comes, so that
+    the side counts from which less contradicts.
+    """
+    agreeing, turns = _agreement(view, places)
+    best = _best(agreeing)
     vista = view[2 * len(places.lengths) :]
-    return contradiction(vista, turns, places.vistas, agreeing > STRANGE)
+    apart = np.full(agreeing.shape, np.inf)
+    for side, turned, found in zip(agreeing, turns, apart, strict=True):
+        likely = (side > STRANGE) & (side >= best - SIDES)
+        found[likely] = contradiction(vista, turned, places.vistas, likely)[likely]
+    least = apart.min(axis=0)
+    return best, np.where(np.isinf(least), 0.0, least)

@@ -17,10 +17,8 @@ FAR_M = 12.0
 """What is nearer than this is in the room, and told by what surrounds the place."""
 SAME_M, SAME = 1.0, 0.12
 """Two lengths that differ by the former, or by this share of the longer, are the same."""
-MOST = (2, 1, 1)
-"""More directions that agree, that are seen farther, or less far, say no more."""
 AGREEING, FARTHER, LESS_FAR = -0.4, 0.6, 0.3
-"""How much these count, if there are as many."""
+"""What it counts that an end agrees, that it goes on farther, and that it ends nearer."""
 
 
 def contradiction(
@@ -45,16 +43,16 @@ def contradiction(
     Returns
     -------
     ndarray, shape (places,), float64
-        From `AGREEING`, where all agrees, to 1; 0 where nothing can be compared.
+        From `AGREEING`, where all agrees, to `FARTHER` + `LESS_FAR`; 0 where nothing can be
+        compared.
     """
     # Compiled code is loaded only where it is needed.
     from ssrics_like.memory import vista_kernels  # noqa: PLC0415
 
     counts = np.zeros((len(turns), 3), np.int64)
     vista_kernels.compare_vistas(seen, turns, remembered, worth, FAR_M, SAME_M, SAME, counts)
-    agreeing, farther, less_far = (np.minimum(counts, MOST) / MOST).T
-    share = AGREEING * agreeing + FARTHER * farther + LESS_FAR * less_far
-    return np.asarray(np.minimum(share, 2.0))
+    found: NDArray[np.float64] = (counts > 0) @ np.array([AGREEING, FARTHER, LESS_FAR])
+    return found
 
 
 def farther(one: NDArray[np.float32], other: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -71,7 +71,7 @@ class Reflex:
     carried : int
         How often the robot found itself suddenly elsewhere by then.
     view : ndarray, shape (view_length,), float32
-        What it looks like there: see `describe_view` and `surround_view`.
+        What it looks like there: see `describe_view` and `Surroundings.view_of`.
     """
 
     event: int
@@ -245,22 +245,25 @@ class PerceptionBuffer:
         """Whether views are of what surrounds a place."""
         return self._sights is not None and self._sights.around
 
-    def view_of(self, place: Pose) -> NDArray[np.float32]:
-        """Describe what surrounds a place near the robot, as `surround_view`.
+    def view_of(self, place: Pose, *, far: bool = True) -> NDArray[np.float32]:
+        """Describe what surrounds a place near the robot, as `Surroundings.view_of`.
 
         Parameters
         ----------
         place : Pose
             Frame of `here`, which must not be None; views must be of surroundings.
+        far : bool
+            Whether it is looked into the distance.
 
         Returns
         -------
-        ndarray, shape (72,), float32
+        ndarray, shape (108,), float32
         """
         assert self._sights is not None
         assert self._here is not None
         assert self._newest is not None
-        return self._sights.view_of(self._newest.pose.onward(place.seen_from(self._here)))
+        place = self._newest.pose.onward(place.seen_from(self._here))
+        return self._sights.view_of(place, far=far)
 
     def flush(self) -> list[Reflex]:
         """End the novel stretch, as at the end of a log; return reflexes kept back so far."""

@@ -35,7 +35,7 @@ class Sensed(NamedTuple):
     gap : Pose or None
         In a doorway its middle, and the direction through that the robot takes; frame of odometry.
     around : ndarray or None
-        What surrounds the place, as `surround_view`; None where that is not perceived.
+        What surrounds the place, as `Surroundings.view_of`; None where that is not perceived.
     """
 
     observation: Observation

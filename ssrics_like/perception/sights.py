@@ -89,7 +89,7 @@ class Sights:
         doorways: list[Moment] = []
         for described in self._surroundings.update(
             observation.pose, observation.scan.bearings_rad, sensed.ranges_m, sensed,
-            observation.scan.ranges_m,
+            observation.scan.ranges_m if self.around else None,
         ):  # fmt: skip
             self._recent.append(described)
             here = described.place.nearest
@@ -123,9 +123,9 @@ class Sights:
             for moment in moments
         ]
 
-    def view_of(self, place: Pose) -> NDArray[np.float32]:
+    def view_of(self, place: Pose, *, far: bool = True) -> NDArray[np.float32]:
         """Describe what surrounds a place near the robot, frame of odometry; needs `around`."""
-        return self._surroundings.view_of(place)
+        return self._surroundings.view_of(place, far=far)
 
     def _view_of(self, anchor: Sensed) -> NDArray[np.float32]:
         """Look round; from a doorway without a direction there is nothing to begin with."""

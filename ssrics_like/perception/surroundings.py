@@ -123,8 +123,15 @@ class Surroundings(Generic[T]):
             self._mapped = (here_m, pose.theta_rad)
         return [self._described(place) for place in self._walk.places()]
 
-    def view_of(self, place: Pose) -> NDArray[np.float32]:
+    def view_of(self, place: Pose, *, far: bool = True) -> NDArray[np.float32]:
         """Describe what surrounds a place near the robot; needs a wide map.
+
+        Parameters
+        ----------
+        place : Pose
+            Frame of odometry.
+        far : bool
+            Whether it is looked into the distance.
 
         Returns
         -------
@@ -133,7 +140,8 @@ class Surroundings(Generic[T]):
         """
         assert self._wide is not None
         near = surround_view(self._wide, place, self._walk.travelled_m)
-        view = np.concatenate([near, self._vista.view_of(place)])
+        vista = self._vista.view_of(place) if far else np.zeros(DIRECTIONS, np.float32)
+        view = np.concatenate([near, vista])
         return np.asarray(np.round(view, DECIMALS))
 
     def _described(self, place: Place[T]) -> Described[T]:

@@ -32,6 +32,10 @@ MOVED_M, TURNED_RAD = 0.1, 0.05
 """A scan taken nearer to the one kept last, and less turned, shows nothing new."""
 
 
+MOST = 500
+"""Scans that are kept, of a robot that turns and turns."""
+
+
 class _Kept(NamedTuple):
     travelled_m: float
     pose: Pose
@@ -43,7 +47,7 @@ class Vista:
     """Keeps the scans of the last metres of path, as the laser gave them."""
 
     def __init__(self) -> None:
-        self._kept: deque[_Kept] = deque()
+        self._kept: deque[_Kept] = deque(maxlen=MOST)
 
     def take(
         self,
