@@ -33,8 +33,7 @@ def vista(**ends):
 
 def of(seen, *remembered, turn=0):
     turns = np.full(len(remembered), turn)
-    worth = np.ones(len(remembered), np.bool_)
-    return contradiction(seen, turns, np.array(remembered).T, worth)
+    return contradiction(seen, turns, np.array(remembered).T)
 
 
 def naive(seen, remembered, turn):
@@ -100,12 +99,6 @@ def test_that_it_goes_on_at_least_so_far_contradicts_only_nearer_ends():
     assert of(vista(d9=30.0), at_least) == 0.0
     assert of(at_least, vista(d9=14.0)) == FARTHER
     assert of(vista(d9=14.0), at_least) == LESS_FAR
-
-
-def test_places_that_are_not_worth_it_are_left_out():
-    turns, worth = np.zeros(2, int), np.array([False, True])
-    places = np.array([vista(d9=15.0)] * 2).T
-    assert contradiction(vista(d9=30.0), turns, places, worth).tolist() == [0.0, FARTHER]
 
 
 def test_the_farther_of_two_vistas_and_an_end_rather_than_what_may_be_one():

@@ -286,7 +286,7 @@ def _compared(
     vista = view[2 * len(places.lengths) :]
     apart = np.full(agreeing.shape, np.inf)
     for side, turned, found in zip(agreeing, turns, apart, strict=True):
-        likely = (side > STRANGE) & (side >= best - SIDES)
-        found[likely] = contradiction(vista, turned, places.vistas, likely)[likely]
+        likely = np.flatnonzero((side > STRANGE) & (side >= best - SIDES))
+        found[likely] = contradiction(vista, turned[likely], places.vistas[:, likely])
     least = apart.min(axis=0)
     return best, np.where(np.isinf(least), 0.0, least)

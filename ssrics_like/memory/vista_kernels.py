@@ -18,7 +18,6 @@ def compare_vistas(
     seen: NDArray[np.float32],
     turns: NDArray[np.int64],
     remembered: NDArray[np.float32],
-    worth: NDArray[np.bool_],
     far_m: float,
     same_m: float,
     same: float,
@@ -31,7 +30,7 @@ def compare_vistas(
 
     Parameters
     ----------
-    seen, turns, remembered, worth : as for `vistas.contradiction`
+    seen, turns, remembered : as for `vistas.contradiction`
     far_m : float
         Nearer ends say nothing.
     same_m, same : float
@@ -42,8 +41,6 @@ def compare_vistas(
     """
     directions = len(seen)
     for place in range(len(turns)):
-        if not worth[place]:
-            continue
         turn = turns[place]
         for k in range(directions):
             left, right = (k + 1) % directions, (k - 1) % directions

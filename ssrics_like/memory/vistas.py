@@ -25,7 +25,6 @@ def contradiction(
     seen: NDArray[np.float32],
     turns: NDArray[np.int64],
     remembered: NDArray[np.float32],
-    worth: NDArray[np.bool_],
 ) -> NDArray[np.float64]:
     """Tell how far what is seen in the distance contradicts what is remembered of places.
 
@@ -37,8 +36,6 @@ def contradiction(
         By how many directions that is turned to fit each place.
     remembered : ndarray, shape (directions, places)
         The same of the places.
-    worth : ndarray, shape (places,)
-        Which places are worth looking at; the others get 0.
 
     Returns
     -------
@@ -50,7 +47,7 @@ def contradiction(
     from ssrics_like.memory import vista_kernels  # noqa: PLC0415
 
     counts = np.zeros((len(turns), 3), np.int64)
-    vista_kernels.compare_vistas(seen, turns, remembered, worth, FAR_M, SAME_M, SAME, counts)
+    vista_kernels.compare_vistas(seen, turns, remembered, FAR_M, SAME_M, SAME, counts)
     found: NDArray[np.float64] = (counts > 0) @ np.array([AGREEING, FARTHER, LESS_FAR])
     return found
 
