@@ -102,10 +102,10 @@ def main() -> int:
     print("\n| alike near by | pairs | vistas agree | say nothing | contradict |")
     print("|---|---|---|---|---|")
     for pair, values in vistas.items():
-        apart = np.array(values)
-        shares = [np.mean(which) for which in (apart < 0, apart == 0, apart > 0)]
-        print(f"| {pair} | {len(values)} | "
-              + " | ".join(f"{100 * share:.0f} %" for share in shares) + " |")  # fmt: skip
+        apart, n = np.array(values), len(values)
+        found = [int(which.sum()) for which in (apart < 0, apart == 0, apart > 0)]
+        shares = " | ".join(f"{100 * k / n:.0f} %" if n else "–" for k in found)
+        print(f"| {pair} | {n} | {shares} |")
     return 0
 
 

@@ -148,6 +148,23 @@ def test_a_place_that_looks_the_same_from_both_sides_is_compared_from_both():
     assert nearer == pytest.approx(-1.0 - 3.0 * LESS_FAR)
 
 
+def test_a_view_that_is_replaced_is_compared_as_if_it_had_always_been_there():
+    views = [View(f"v{i}", view(room(i), 0.0, vista(d9=20.0 + i))) for i in range(4)]
+    columns = [
+        SurroundingsSimilarity(-6.0, -3.0).column("view", SimilarityScale(0.0, -8.0))
+        for _ in range(2)
+    ]
+    for each in views[:3]:
+        columns[0].append(each)
+    columns[0].similarity(views[0])  # from here on all are kept ready to be compared
+    columns[0].replace(1, views[3])
+    for i in (0, 3, 2):
+        columns[1].append(views[i])
+    for asked in views:
+        one, other = (column.similarity(asked) for column in columns)
+        assert one.tolist() == other.tolist()
+
+
 def test_what_is_seen_where_the_place_lies_has_its_own_vista():
     column = SurroundingsSimilarity(-6.0, -3.0).column("view", SimilarityScale(0.0, -8.0))
     column.append(View("A", view(room(), 0.0, vista(d9=30.0))))
@@ -172,5 +189,6 @@ def test_a_place_of_which_nothing_is_known_takes_the_first_view():
     nothing = view(np.full(N, 6.0), 6.0, np.zeros(N))
     assert joined(nothing, seen, np.pi / 2) is seen
     assert joined(seen, nothing, 0.0) is None
+    assert joined(seen, seen, 0.0) is None
     assert joined(seen, view(room(3), 0.0, vista()), 0.0) is None
     assert UNKNOWN_M < 6.0

@@ -93,7 +93,10 @@ class SurroundingsColumn(ViewColumn):
         super().replace(row, value)
         if isinstance(value, View):
             self._row_of[value.name] = row
-        self._turned = None
+        if self._turned is not None and self._rows is not None:  # the others stay as they are
+            one = _by_direction(self._rows.used[row : row + 1])
+            for rows, new in zip(self._turned, one, strict=True):
+                rows[:, row] = new[:, 0]
 
     def _row(self, view: View) -> NDArray[np.float32]:
         return view.descriptor
@@ -179,8 +182,8 @@ def joined(
     -------
     ndarray, shape (3 directions,), or None
         The view remembered; the one seen, where less of that is unknown; and the farther vista of
-        both. The one seen, if nothing was remembered. None if they look too different to tell how
-        exactly one is turned to the other.
+        both. The one seen, if nothing was remembered. None if nothing is added, or they look too
+        different to tell how exactly one is turned to the other.
     """
     lengths, unknown, vista = remembered.reshape(3, -1)
     if (unknown >= UNKNOWN_M).all():
@@ -194,11 +197,12 @@ def joined(
         return None
     lengths_seen, unknown_seen, vista_seen = np.roll(seen.reshape(3, -1), turns[half, 0], axis=1)
     better = unknown_seen < unknown
-    return np.concatenate([
+    view = np.concatenate([
         np.where(better, lengths_seen, lengths),
         np.where(better, unknown_seen, unknown),
         farther(vista, vista_seen),
     ])  # fmt: skip
+    return None if np.array_equal(view, remembered) else view
 
 
 class _Places(NamedTuple):

@@ -21,9 +21,9 @@ def compare_vistas(
     far_m: float,
     same_m: float,
     same: float,
-    counts: NDArray[np.int64],
+    found: NDArray[np.bool_],
 ) -> None:
-    """Count the directions in which a vista agrees with remembered ones, or contradicts them.
+    """Tell whether a vista agrees with remembered ones in some direction, or contradicts them.
 
     Asked of each direction in which one of both goes on farther than beside it, and far, if the
     other was seen there and on both sides.
@@ -35,9 +35,9 @@ def compare_vistas(
         Nearer ends say nothing.
     same_m, same : float
         Two lengths that differ by the former, or by this share of the longer, are the same.
-    counts : ndarray, shape (places, 3)
-        Raised by how many agree, are seen farther than to an end remembered, and are seen to end
-        nearer.
+    found : ndarray, shape (places, 3)
+        Set where an end agrees, something is seen farther than to an end remembered, and an end is
+        seen nearer.
     """
     directions = len(seen)
     for place in range(len(turns)):
@@ -52,10 +52,10 @@ def compare_vistas(
             x, y, z = remembered[k, place], remembered[left, place], remembered[right, place]
             kind = _kind(a, b, c, x, y, z, far_m, same_m, same, FARTHER, LESS_FAR)
             if kind >= 0:
-                counts[place, kind] += 1
+                found[place, kind] = True
             kind = _kind(x, y, z, a, b, c, far_m, same_m, same, LESS_FAR, FARTHER)
             if kind >= 0:
-                counts[place, kind] += 1
+                found[place, kind] = True
 
 
 @compiled

@@ -46,22 +46,23 @@ def contradiction(
     # Compiled code is loaded only where it is needed.
     from ssrics_like.memory import vista_kernels  # noqa: PLC0415
 
-    counts = np.zeros((len(turns), 3), np.int64)
-    vista_kernels.compare_vistas(seen, turns, remembered, FAR_M, SAME_M, SAME, counts)
-    found: NDArray[np.float64] = (counts > 0) @ np.array([AGREEING, FARTHER, LESS_FAR])
-    return found
+    found = np.zeros((len(turns), 3), np.bool_)
+    vista_kernels.compare_vistas(seen, turns, remembered, FAR_M, SAME_M, SAME, found)
+    share: NDArray[np.float64] = found @ np.array([AGREEING, FARTHER, LESS_FAR])
+    return share
 
 
 def farther(one: NDArray[np.float32], other: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return the farther of two vistas in each direction; an end, if both may be that.
+
+    As perception does with two beams, of which memory knows nothing.
 
     Parameters
     ----------
     one, other : ndarray, shape (directions,)
         As for `contradiction`, of one place.
     """
-    ends = np.abs(other) > np.abs(one)
-    found = np.where(ends, other, one)
+    found = np.where(np.abs(other) > np.abs(one), other, one)
     for end, more in ((one, other), (other, one)):
         same = (end > 0.0) & (more < 0.0) & (-more <= (1.0 + SAME) * end)
         found = np.where(same, end, found)

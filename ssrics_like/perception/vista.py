@@ -30,8 +30,6 @@ MEMORY_M = 10.0
 """Metres of path after which a scan is forgotten, as is a cell of the wide map."""
 MOVED_M, TURNED_RAD = 0.1, 0.05
 """A scan taken nearer to the one kept last, and less turned, shows nothing new."""
-
-
 MOST = 500
 """Scans that are kept, of a robot that turns and turns."""
 
@@ -56,16 +54,10 @@ class Vista:
         ranges_m: NDArray[np.float64],
         travelled_m: float,
     ) -> None:
-        """Take a scan.
+        """Take a scan; the parameters are those of `LocalMap.take`, but for `ranges_m`.
 
-        Parameters
-        ----------
-        pose : Pose
-            Of the laser, in the frame of odometry.
-        bearings_rad, ranges_m : ndarray, shape (beams,), float64
-            The scan; a reading that is not a number above 0 and below `FARTHEST_M` says nothing.
-        travelled_m : float
-            Metres travelled so far.
+        These are the readings as they came; one that is not above 0 and below `FARTHEST_M` says
+        nothing.
         """
         if self._kept:
             before = self._kept[-1]

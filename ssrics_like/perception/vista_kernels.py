@@ -15,7 +15,7 @@ STEEP = 2.0
 """A wall is an end if from one beam to the next it recedes by no more than so many times what lies
 between the beams: along a wall one does not see to where it ends."""
 NOISE_M = 0.1
-"""Beside what the laser is wrong by."""
+"""So much more does not matter: the laser is wrong by some centimetres."""
 SAME = 0.12
 """What is seen to go on by this share farther than an end, at most, is that end."""
 
