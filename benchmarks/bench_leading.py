@@ -10,7 +10,8 @@ bench designators --maps`, the robot explores, and then
 * *closed door*: is sent to a landmark, a doorway on the shortest way to it having been shut, where
   another way is open;
 * *kidnapped*: is put down at random places of another drive, again and again, and goes on from
-  there until it has marked four different places.
+  there until it has marked four different places. The end of that drive, where it does not pass
+  four landmarks any more, is left out: it says nothing of whether four are enough.
 
 Reached is an errand that the model takes for reached, its end truly within 1 m of where the
 landmark was declared. Located is a robot whose first recognition among these is right.
@@ -51,7 +52,7 @@ from ssrics_like.world.reachable import reachable
 Spec = Simulated | OnPlan
 DRIFT = 0.05
 PURPOSE = 3  # buildings of their own, in which nothing was tuned
-REACHED_M, SAME_M, AWAY_M = 1.0, 1.0, 3.0
+REACHED_M, SAME_M, AWAY_M, PASSED_M = 1.0, 1.0, 3.0, 0.5
 FOUR = 4
 ENOUGH_SCANS = 3000  # after a kidnap; then what was marked counts
 
@@ -164,8 +165,9 @@ def put_down(spec: Spec, other: Spec, kidnaps: int) -> Counter:
     drive = list(stage(other).simulation([Exploration()]))
     rng, found = np.random.default_rng((9, spec.seed)), Counter()
     t_s, index = last.t_s, last.index
+    ahead = scans_with_four_ahead(drive, mind)
     while sum(found.values()) < kidnaps:
-        i = int(rng.integers(len(drive) - 50))
+        i = int(rng.integers(ahead))
         if drive[i].true_pose.distance_m(last.true_pose) < AWAY_M:
             continue
         origin, at, carried_s = last.pose, drive[i].pose, t_s
@@ -184,6 +186,14 @@ def put_down(spec: Spec, other: Spec, kidnaps: int) -> Counter:
                 break
         found[next((m for m in marks if m in ("located", "wrong")), "unknown")] += 1
     return found
+
+
+def scans_with_four_ahead(drive: list[Observation], mind: Mind) -> int:
+    """Return for how many scans, from the first one on, a drive goes on through four landmarks."""
+    path_m = np.array([(o.true_pose.x_m, o.true_pose.y_m) for o in drive])
+    passed = [np.flatnonzero(np.hypot(*(path_m - (place.x_m, place.y_m)).T) < PASSED_M)
+              for place in mind.places.values()]  # fmt: skip
+    return sorted(int(scans[-1]) for scans in passed if len(scans))[-FOUR]
 
 
 def judged_mark(decision: Decision, mind: Mind) -> str:

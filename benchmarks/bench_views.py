@@ -99,11 +99,13 @@ def main() -> int:
             share = np.mean(np.array(pairs["different"]) >= middle)
             said = "" if pair == "different" else f"{100 * share:.1f} %"
             print(f"| {view} | {pair} | {len(values)} | {low:.2f} | {middle:.2f} | {said} |")
-    print("\n| alike near by | pairs | vistas agree | say nothing | contradict |")
+    print(
+        "\n| alike near by | pairs | nothing contradicts | goes on past an end | an end differs |"
+    )
     print("|---|---|---|---|---|")
     for pair, values in vistas.items():
         apart, n = np.array(values), len(values)
-        found = [int(which.sum()) for which in (apart < 0, apart == 0, apart > 0)]
+        found = [int(which.sum()) for which in (apart == 0, (apart > 0) & (apart < 1), apart == 1)]
         shares = " | ".join(f"{100 * k / n:.0f} %" if n else "–" for k in found)
         print(f"| {pair} | {n} | {shares} |")
     return 0

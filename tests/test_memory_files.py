@@ -87,7 +87,7 @@ def test_equal_memories_give_equal_bytes_and_nothing_else_is_left(tmp_path):
 def test_the_file_is_json_with_a_line_for_each_chunk(tmp_path):
     text = saved(tmp_path).read_text()
     data = json.loads(text)
-    assert (data["format"], data["version"], data["saved_s"]) == ("ssrics-memory", 2, 100.0)
+    assert (data["format"], data["version"], data["saved_s"]) == ("ssrics-memory", 3, 100.0)
     assert data["chunks"][0]["ages_s"] == [60.0, 12.5]
     assert data["topology"]["nodes"][0]["origin"] == "run-a/L1"
     assert sum(line.startswith('{"name": "L') for line in text.splitlines()) == 3
@@ -162,18 +162,25 @@ def test_fields_of_arcs_and_landmarks_that_came_later_have_their_defaults(tmp_pa
     assert load_memory_file(path).landmarks == memory().landmarks
 
 
-@pytest.mark.parametrize(("length", "least"), [(72, 0.0), (72, -0.5), (36, 0.0)])
-def test_views_of_surroundings_from_before_there_were_vistas_have_none(tmp_path, length, least):
+@pytest.mark.parametrize(
+    ("version", "length", "least", "kept", "length_now"),
+    [
+        (1, 72, 0.0, 72, 108), (1, 72, -0.5, 72, 72), (1, 36, 0.0, 36, 36),
+        (2, 108, 0.0, 72, 108), (2, 108, -0.5, 108, 108), (2, 36, 0.0, 36, 36),
+        (3, 108, 0.0, 108, 108),
+    ],
+)  # fmt: skip
+def test_vistas_of_older_versions_are_unknown(tmp_path, version, length, least, kept, length_now):
     path = saved(tmp_path)
     data = json.loads(path.read_bytes())
-    data["version"] = 1
+    data["version"] = version
     numbers = [0.5 * i + least for i in range(length)]
     for each in data["chunks"]:
         for value in each["slots"].values():
             if isinstance(value, dict):
                 value["numbers"] = numbers
     path.write_text(json.dumps(data))
-    expected = numbers + [0.0] * (36 if length == 72 and least == 0.0 else 0)
+    expected = numbers[:kept] + [0.0] * (length_now - kept)
     slots = [value for each in load_memory_file(path).chunks for value in each.chunk.slots.values()]
     views = [value for value in slots if isinstance(value, View)]
     assert views
@@ -207,7 +214,7 @@ CHUNK, NODE = ("chunks", 0), ("topology", "nodes", 0)
         (lambda _: [1, 2], "no saved memory: its format is None, expected 'ssrics-memory'"),
         (lambda _: None, "no saved memory: its format is None"),
         (setting("format", value="ssrics-topology"), "its format is 'ssrics-topology'"),
-        (setting("version", value=3), "newer ssrics: its version is 3, this one reads up to 2"),
+        (setting("version", value=4), "newer ssrics: its version is 4, this one reads up to 3"),
         (setting("version", value=True), "damaged: its version is True"),
         (setting("saved_s", value="now"), "saved_s is 'now', expected a number"),
         (setting("saved_s", value=math.inf), "saved_s is inf"),

@@ -1,4 +1,4 @@
-"""Vistas: how far one sees from a place tells it from others that are alike near by."""
+"""Vistas: what is at the end of the hallway tells a place from others that are alike near by."""
 
 import numpy as np
 import pytest
@@ -8,24 +8,14 @@ from hypothesis import strategies as st
 from ssrics_like.memory import SurroundingsSimilarity, View
 from ssrics_like.memory.columns import SimilarityScale
 from ssrics_like.memory.surroundings import UNKNOWN_M, joined
-from ssrics_like.memory.vistas import (
-    AGREEING,
-    FAR_M,
-    FARTHER,
-    LESS_FAR,
-    SAME,
-    SAME_M,
-    contradiction,
-    farther,
-)
-from ssrics_like.perception.vista_kernels import farther as perceived_farther
+from ssrics_like.memory.vistas import FAR_M, PAST, PAST_BY, SAME, SAME_M, contradiction, gathered
 
 N = 36
 
 
 def vista(**ends):
-    """Walls at 4 m, but for the directions named, as in ``d9=30.0``."""
-    lengths = np.full(N, 4.0, np.float32)
+    """Nothing known but the directions named, as in ``d9=30.0``."""
+    lengths = np.zeros(N, np.float32)
     for direction, length in ends.items():
         lengths[int(direction[1:])] = length
     return lengths
@@ -36,29 +26,30 @@ def of(seen, *remembered, turn=0):
     return contradiction(seen, turns, np.array(remembered).T)
 
 
+def same(one, other):
+    return one > 0 and other > 0 and abs(one - other) < max(SAME_M, SAME * max(one, other))
+
+
 def naive(seen, remembered, turn):
     """Ask both vistas, direction by direction, in the words of the docstrings."""
-    rolled = np.roll(seen, turn)
-    counts = {"agree": 0, "farther": 0, "less": 0}
-    for mine, others, above, below in (
-        (rolled, remembered, "farther", "less"), (remembered, rolled, "less", "farther"),
-    ):  # fmt: skip
-        for k in range(N):
-            beside = [(k + j) % N for j in (1, -1)]
-            peak, found = float(mine[k]), [float(others[i]) for i in (k, *beside)]
-            if abs(peak) <= FAR_M or any(abs(mine[i]) > abs(peak) for i in beside) or 0 in found:
-                continue
-            like = [x for x in found
-                    if abs(abs(peak) - abs(x)) < max(SAME_M, SAME * max(abs(peak), abs(x)))]  # fmt: skip
-            if like:
-                counts["agree"] += peak > 0 and like[0] > 0
-                continue
-            longest = max(found, key=abs)
-            if abs(longest) < abs(peak):
-                counts[above] += longest > 0
-            else:
-                counts[below] += peak > 0
-    return np.dot([n > 0 for n in counts.values()], (AGREEING, FARTHER, LESS_FAR))
+    mine, others = np.roll(seen, turn).tolist(), remembered.tolist()
+    beside = [[(k + j) % N for j in (-1, 0, 1)] for k in range(N)]
+    compared = [
+        k for k in range(N)
+        if mine[k] > 0 and others[k] > 0
+        and max(max(mine[i], others[i]) for i in beside[k]) >= FAR_M
+    ]  # fmt: skip
+    agree = [
+        k for k in compared
+        if any(same(mine[k], others[i]) or same(others[k], mine[i]) for i in beside[k])
+    ]  # fmt: skip
+    if any(not set(beside[k]) & set(agree) for k in compared):
+        return 1.0
+    past = any(
+        all(0 < b[i] < -a[k] * (1 - PAST_BY) for i in beside[k])
+        for a, b in ((mine, others), (others, mine)) for k in range(N)
+    )  # fmt: skip
+    return PAST if past else 0.0
 
 
 @settings(max_examples=60, deadline=None)
@@ -67,8 +58,10 @@ def test_contradiction_is_that_of_a_plain_loop(seed, turn):
     rng = np.random.default_rng(seed)
 
     def drawn():
-        lengths = rng.choice([3.0, 14.0, 15.0, 30.0, 45.0], N, p=[0.6, 0.1, 0.1, 0.1, 0.1])
-        return (lengths * rng.choice([1.0, -1.0, 0.0], N, p=[0.8, 0.15, 0.05])).astype(np.float32)
+        wide = rng.choice(
+            [0.0, 7.0, 14.0, 15.0, 30.0, -25.0], N // 3, p=[0.4, 0.3, 0.1, 0.1, 0.05, 0.05]
+        )
+        return np.repeat(wide, 3).astype(np.float32)
 
     seen, others = drawn(), [drawn() for _ in range(3)]
     others.append(np.roll(seen, turn))
@@ -76,44 +69,41 @@ def test_contradiction_is_that_of_a_plain_loop(seed, turn):
     assert of(seen, *others, turn=turn) == pytest.approx(expected)
 
 
-def test_a_hallway_that_ends_as_far_agrees_and_another_one_contradicts():
+def test_a_hallway_that_ends_elsewhere_contradicts():
     seen = vista(d9=30.0, d27=13.0)
-    same, no_hallway, moved, unseen = of(
-        seen, vista(d9=31.0, d28=13.2), vista(), vista(d9=17.0, d27=26.0), np.zeros(N, np.float32)
-    )
-    assert same == AGREEING
-    assert no_hallway == FARTHER
-    assert moved == pytest.approx(FARTHER + LESS_FAR)
-    assert unseen == 0.0
+    as_far, aside, moved, one_end, unseen = of(
+        seen, vista(d9=31.0, d27=13.2), vista(d9=7.0, d10=30.5), vista(d9=17.0, d27=26.0),
+        vista(d9=30.0, d27=15.0), vista(d0=30.0),
+    )  # fmt: skip
+    assert as_far == aside == unseen == 0.0
+    assert moved == one_end == 1.0
 
 
-def test_nobody_sees_through_walls_but_somebody_may_stand_in_the_way():
-    near, far = vista(d9=15.0), vista(d9=30.0)
-    assert of(far, near) == FARTHER
-    assert of(near, far) == LESS_FAR
+def test_ends_in_the_room_say_nothing():
+    assert of(vista(d9=7.0), vista(d9=10.0)) == 0.0
+    assert of(vista(d9=7.0), vista(d9=FAR_M)) == 1.0
 
 
-def test_that_it_goes_on_at_least_so_far_contradicts_only_nearer_ends():
+def test_an_end_that_agrees_beside_it_does_not_contradict():
+    seen = vista(d8=17.0, d9=17.0, d10=31.0)
+    assert of(seen, vista(d8=17.0, d9=17.0, d10=17.0)) == 0.0
+    assert of(seen, vista(d8=17.0, d9=22.0, d10=22.0)) == 0.0
+    assert of(seen, vista(d8=22.0, d9=22.0, d10=22.0)) == 1.0
+
+
+def test_that_it_goes_on_at_least_so_far_contradicts_nearer_ends():
     at_least = vista(d9=-20.0)
-    assert of(at_least, vista(d9=30.0)) == 0.0
-    assert of(vista(d9=30.0), at_least) == 0.0
-    assert of(at_least, vista(d9=14.0)) == FARTHER
-    assert of(vista(d9=14.0), at_least) == LESS_FAR
+    near, far = (vista(d8=end, d9=end, d10=end) for end in (14.0, 30.0))
+    assert of(at_least, far) == of(far, at_least) == 0.0
+    assert of(at_least, near) == of(near, at_least) == PAST
+    assert of(at_least, vista(d9=14.0)) == 0.0  # a gap beside it
+    assert of(vista(d9=-20.0, d20=30.0), vista(d8=9.0, d9=9.0, d10=9.0, d20=15.0)) == 1.0
 
 
-def test_the_farther_of_two_vistas_and_an_end_rather_than_what_may_be_one():
-    one = np.array([30.0, -20.0, 0.0, 10.0, -25.0], np.float32)
-    other = np.array([-32.0, 12.0, 5.0, -14.0, 24.0], np.float32)
-    expected = [30.0, -20.0, 5.0, -14.0, 24.0]
-    assert farther(one, other).tolist() == expected
-    assert farther(other, one).tolist() == expected
-
-
-def test_the_farther_one_is_what_perception_takes_for_it():
-    lengths = np.random.default_rng(0).uniform(-30.0, 30.0, (2, 200)).astype(np.float32)
-    one, other = np.round(lengths / 5.0) * 5.0  # often as far, or nearly
-    expected = [perceived_farther(a, b) for a, b in zip(one.tolist(), other.tolist(), strict=True)]
-    assert farther(one, other).tolist() == expected
+def test_the_ends_seen_last_are_gathered():
+    remembered = np.array([30.0, -20.0, 0.0, 10.0, -25.0, 12.0], np.float32)
+    seen = np.array([22.0, 15.0, -5.0, -14.0, -30.0, 0.0], np.float32)
+    assert gathered(remembered, seen).tolist() == [22.0, 15.0, -5.0, 10.0, -30.0, 12.0]
 
 
 def view(lengths, unknown, far):
@@ -131,8 +121,8 @@ def test_a_vista_tells_places_apart_that_are_alike_near_by():
     column.append(View("D", view(room(2), 0.0, vista(d9=15.0))))
     seen = View("seen", view(np.roll(room(), 18), 0.0, np.roll(vista(d9=30.0), 18)))
     a, b, c, d = column.similarity(seen).tolist()
-    assert a == 0.0  # no more than equal
-    assert b == c == pytest.approx(-3.0 * FARTHER)
+    assert a == c == 0.0
+    assert b == pytest.approx(-3.0)
     assert d <= -4.0
 
 
@@ -145,7 +135,7 @@ def test_a_place_that_looks_the_same_from_both_sides_is_compared_from_both():
         seen = column.similarity(View("seen", view(hallway, 0.0, turned)))
         assert seen == pytest.approx(-1.0)
     nearer = column.similarity(View("seen", view(hallway, 0.0, vista(d1=22.0))))
-    assert nearer == pytest.approx(-1.0 - 3.0 * LESS_FAR)
+    assert nearer == pytest.approx(-1.0 - 3.0)
 
 
 def test_a_view_that_is_replaced_is_compared_as_if_it_had_always_been_there():

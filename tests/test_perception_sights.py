@@ -169,8 +169,7 @@ def test_what_surrounds_a_doorway_is_looked_at_from_its_middle_along_the_way_thr
     assert aside == pytest.approx(0.45, abs=0.15)  # to the jamb
     assert unknown[0] < 1.0
     assert unknown[18] > 1.0  # the wall behind its start was never seen
-    assert vista[0] == pytest.approx(2.9, abs=0.2)
-    assert vista[18] == 0.0
+    assert not vista.any()  # nothing is so far away
 
 
 def test_from_the_other_side_it_is_the_same_half_a_turn_aside():

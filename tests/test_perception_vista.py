@@ -1,4 +1,4 @@
-"""The vista of a place: how far one sees from it, and whether it ends there."""
+"""The vista of a place: what one sees at the end of the hallway."""
 
 import math
 
@@ -6,8 +6,17 @@ import numpy as np
 import pytest
 
 from ssrics_like.perception.observation import Pose
-from ssrics_like.perception.vista import DIRECTIONS, FARTHEST_M, MEMORY_M, MOST, NEAR_M, Vista
-from ssrics_like.perception.vista_kernels import farther
+from ssrics_like.perception.vista import (
+    DIRECTIONS,
+    FARTHEST_M,
+    FEWEST,
+    MEMORY_M,
+    MOST,
+    NEAR_M,
+    NEAREST_M,
+    RATIO,
+    Vista,
+)
 
 BEARINGS = np.radians(np.arange(-89.5, 90.0))
 LENGTH_M, HALF_M = 30.0, 1.2  # a hallway, along x
@@ -35,8 +44,9 @@ def test_one_sees_to_the_end_of_the_hallway():
     ahead = vista.view_of(Pose(0.0, 0.0, 0.0))
     assert ahead[0] == pytest.approx(LENGTH_M, abs=0.1)
     assert np.all(ahead[10:27] == 0.0)  # behind
-    assert 0.0 < ahead[7] < 2.0
+    assert ahead[7] == 0.0  # nearer than a vista begins
     assert ahead[1] < 0.0  # along the wall it goes on at least so far
+    assert ahead[35] == pytest.approx(LENGTH_M, abs=0.1)  # the end, up to ten degrees aside
     turned = vista.view_of(Pose(0.0, 0.0, math.pi / 2))
     assert turned[27] == pytest.approx(LENGTH_M, abs=0.1)
 
@@ -71,18 +81,41 @@ def test_readings_that_are_none_say_nothing(reading):
     assert not vista.view_of(Pose(0.0, 0.0, 0.0)).any()
 
 
-def test_a_lone_beam_is_no_end():
+def seen_of(ranges):
     pose = Pose(0.0, 0.0, 0.0)
-    ranges = np.full(len(BEARINGS), 5.0)
-    ranges[90] = 25.0
-    seen = vista_after(pose, ranges=ranges).view_of(pose)
-    assert seen[0] == pytest.approx(-25.0, abs=0.01)
+    return vista_after(pose, ranges=ranges).view_of(pose)
+
+
+def test_few_beams_are_no_end():
+    ranges = np.full(len(BEARINGS), 8.0)
+    ranges[88:90] = 25.0
+    assert FEWEST > 2
+    seen = seen_of(ranges)
     assert seen.shape == (DIRECTIONS,)
-    assert seen[9] == pytest.approx(5.0, abs=0.01)
+    assert seen[:9] == pytest.approx(8.0)
+    assert not seen[11:26].any()
 
 
-def test_an_end_stays_what_it_is_if_it_may_be_a_little_farther():
-    assert farther(30.0, -32.0) == farther(-32.0, 30.0) == 30.0
-    assert farther(30.0, -40.0) == farther(-40.0, 30.0) == -40.0
-    assert farther(30.0, 31.0) == 31.0
-    assert farther(0.0, -3.0) == -3.0
+def test_the_wall_counts_not_the_doorway_in_it():
+    ranges = np.full(len(BEARINGS), 20.0)
+    ranges[89:91] = 45.0
+    assert seen_of(ranges)[0] == pytest.approx(20.0)
+
+
+def test_the_wider_of_two_walls_counts():
+    ranges = np.full(len(BEARINGS), 9.0)
+    ranges[86:94] = 21.0  # 8 beams of 21 m are wider than 12 of 9 m
+    assert seen_of(ranges)[0] == pytest.approx(21.0)
+    ranges[86:94] = 9.5
+    assert seen_of(ranges)[0] == pytest.approx(9.2, abs=0.05)  # one wall, where classes meet
+
+
+def test_along_a_wall_it_goes_on_at_least_so_far():
+    ranges = np.full(len(BEARINGS), 3.0)
+    ranges[86:94] = 14.0 + 2.0 * np.arange(8)  # recedes too fast to be faced
+    seen = seen_of(ranges)
+    third = 24.0
+    assert third / RATIO <= -seen[0] <= third
+    ranges[86:94] *= 0.4
+    assert not seen_of(ranges).any()
+    assert NEAREST_M > 3.0

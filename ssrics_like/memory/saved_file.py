@@ -41,10 +41,10 @@ if TYPE_CHECKING:
     from ssrics_like.memory.layout import Placed
 
 FORMAT = "ssrics-memory"
-VERSION = 2
+VERSION = 3
 WITHOUT_VISTA, VISTA = 72, 36
-"""Numbers of a view of surroundings in version 1, and of what has been added since: how far one
-sees from the place."""
+"""Numbers of a view of surroundings in version 1, and of what has been added since: what is seen in
+the distance. Version 2 held something else there, how far one sees."""
 AGE_DECIMALS = 9
 _ENCODER = json.JSONEncoder(allow_nan=False)
 ORIGIN = "origin"
@@ -203,7 +203,7 @@ def memory_from(path: Path, content: bytes) -> SavedMemory:
     landmarks, arcs = from_node_link(path, topology)
     try:
         chunks = tuple(_chunk(path, chunk) for chunk in head["chunks"])
-        if head["version"] == 1:
+        if head["version"] < VERSION:
             chunks = tuple(map(_with_unknown_vista, chunks))
         return SavedMemory(
             saved_s=float(head["saved_s"]),
@@ -267,7 +267,7 @@ def _chunk(path: Path, given: Any) -> RememberedChunk:
 
 def _with_unknown_vista(each: RememberedChunk) -> RememberedChunk:
     slots = {
-        slot: View(value.name, np.pad(value.descriptor, (0, VISTA)))
+        slot: View(value.name, np.pad(value.descriptor[:WITHOUT_VISTA], (0, VISTA)))
         if isinstance(value, View) and _surrounds(value)
         else value
         for slot, value in each.chunk.slots.items()
@@ -277,7 +277,8 @@ def _with_unknown_vista(each: RememberedChunk) -> RememberedChunk:
 
 def _surrounds(view: View) -> bool:
     """Tell a view of surroundings, all lengths, from one of a scan, whose mean is 0."""
-    return len(view.descriptor) == WITHOUT_VISTA and bool((view.descriptor >= 0.0).all())
+    known = len(view.descriptor) in (WITHOUT_VISTA, WITHOUT_VISTA + VISTA)
+    return known and bool((view.descriptor[:WITHOUT_VISTA] >= 0.0).all())
 
 
 def _value(path: Path, at: str, given: Any) -> Value:

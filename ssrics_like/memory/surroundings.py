@@ -10,7 +10,7 @@ import numpy as np
 from ssrics_like.memory.chunks import View
 from ssrics_like.memory.columns import SimilarityScale, SlotColumn
 from ssrics_like.memory.continuous import ViewColumn
-from ssrics_like.memory.vistas import contradiction, farther
+from ssrics_like.memory.vistas import contradiction, gathered
 
 if TYPE_CHECKING:
     from typing import Any
@@ -124,7 +124,7 @@ class SurroundingsColumn(ViewColumn):
         u = np.clip((agreeing - STRANGE) / (KNOWN - STRANGE), 0.0, 1.0)
         u[np.isnan(agreeing)] = NEITHER
         similarity = self._scale.different + (self._scale.equal - self._scale.different) * u
-        return np.minimum(similarity + self._vista_difference * v, self._scale.equal)
+        return similarity + self._vista_difference * v
 
 
 def agreement(view: NDArray[np.float32], places: NDArray[np.float32]) -> NDArray[np.float64]:
@@ -181,9 +181,9 @@ def joined(
     Returns
     -------
     ndarray, shape (3 directions,), or None
-        The view remembered; the one seen, where less of that is unknown; and the farther vista of
-        both. The one seen, if nothing was remembered. None if nothing is added, or they look too
-        different to tell how exactly one is turned to the other.
+        The view remembered; the one seen, where less of that is unknown; and the ends of both in
+        the distance, those seen last. The one seen, if nothing was remembered. None if nothing is
+        added, or they look too different to tell how exactly one is turned to the other.
     """
     lengths, unknown, vista = remembered.reshape(3, -1)
     if (unknown >= UNKNOWN_M).all():
@@ -200,7 +200,7 @@ def joined(
     view = np.concatenate([
         np.where(better, lengths_seen, lengths),
         np.where(better, unknown_seen, unknown),
-        farther(vista, vista_seen),
+        gathered(vista, vista_seen),
     ])  # fmt: skip
     return None if np.array_equal(view, remembered) else view
 

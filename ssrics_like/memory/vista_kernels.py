@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ssrics_like.compiling import compiled
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
-AGREES, FARTHER, LESS_FAR = 0, 1, 2
+AGREES, DIFFERS = 1, 2
 
 
 @compiled
@@ -21,58 +22,73 @@ def compare_vistas(
     far_m: float,
     same_m: float,
     same: float,
-    found: NDArray[np.bool_],
+    past_by: float,
+    differs: NDArray[np.bool_],
+    past: NDArray[np.bool_],
 ) -> None:
-    """Tell whether a vista agrees with remembered ones in some direction, or contradicts them.
+    """Tell whether a vista contradicts remembered ones in some direction.
 
-    Asked of each direction in which one of both goes on farther than beside it, and far, if the
-    other was seen there and on both sides.
+    An end is compared with those that the other has in that direction and in the two beside it, if
+    the other has one in that direction.
 
     Parameters
     ----------
     seen, turns, remembered : as for `vistas.contradiction`
     far_m : float
-        Nearer ends say nothing.
+        Ends say something if one of them is so far.
     same_m, same : float
-        Two lengths that differ by the former, or by this share of the longer, are the same.
-    found : ndarray, shape (places, 3)
-        Set where an end agrees, something is seen farther than to an end remembered, and an end is
-        seen nearer.
+        Two ends that differ by the former, or by this share of the longer, are the same.
+    past_by : float
+        It goes on past an end if that is nearer by this share of how far it goes on at least.
+    differs : ndarray, shape (places,)
+        Set where an end is none of the other's, and neither is the same beside it.
+    past : ndarray, shape (places,)
+        Set where one goes on past an end of the other, in that direction and in both beside it.
     """
     directions = len(seen)
-    for place in range(len(turns)):
-        turn = turns[place]
+    turned = np.empty(directions, np.float32)
+    place = np.empty(directions, np.float32)
+    kinds = np.empty(directions, np.int64)
+    for index in range(len(turns)):
         for k in range(directions):
-            left, right = (k + 1) % directions, (k - 1) % directions
-            a, b, c = (
-                seen[(k - turn) % directions],
-                seen[(left - turn) % directions],
-                seen[(right - turn) % directions],
-            )
-            x, y, z = remembered[k, place], remembered[left, place], remembered[right, place]
-            kind = _kind(a, b, c, x, y, z, far_m, same_m, same, FARTHER, LESS_FAR)
-            if kind >= 0:
-                found[place, kind] = True
-            kind = _kind(x, y, z, a, b, c, far_m, same_m, same, LESS_FAR, FARTHER)
-            if kind >= 0:
-                found[place, kind] = True
+            turned[k] = seen[(k - turns[index]) % directions]
+            place[k] = remembered[k, index]
+        for k in range(directions):
+            kinds[k] = _kind(turned, place, k, far_m, same_m, same)
+            if _goes_past(turned, place, k, past_by) or _goes_past(place, turned, k, past_by):
+                past[index] = True
+        for k in range(directions):
+            beside = kinds[k - 1] == AGREES or kinds[(k + 1) % directions] == AGREES
+            if kinds[k] == DIFFERS and not beside:
+                differs[index] = True
 
 
 @compiled
 def _kind(
-    peak: float, left: float, right: float, x: float, y: float, z: float,
-    far_m: float, same_m: float, same: float, above: int, below: int,
+    one: NDArray[np.float32], other: NDArray[np.float32], direction: int,
+    far_m: float, same_m: float, same: float,
 ) -> int:  # fmt: skip
-    """Tell what three lengths say of the middle one of three others; -1 for nothing."""
-    far = abs(peak)
-    if far <= far_m or far < max(abs(left), abs(right)) or x == 0.0 or y == 0.0 or z == 0.0:
+    """Tell what the ends in and beside a direction say of it; -1 for nothing."""
+    if one[direction] <= 0.0 or other[direction] <= 0.0:
         return -1
-    most, end = 0.0, False
-    for other in (x, y, z):
-        if abs(far - abs(other)) < max(same_m, same * max(far, abs(other))):
-            return AGREES if peak > 0.0 and other > 0.0 else -1
-        if abs(other) > most:
-            most, end = abs(other), other > 0.0
-    if most < far:
-        return above if end else -1
-    return below if peak > 0.0 else -1
+    agrees = far = False
+    for aside in (-1, 0, 1):
+        beside = (direction + aside) % len(one)
+        far = far or one[beside] >= far_m or other[beside] >= far_m
+        for a, b in ((one[direction], other[beside]), (other[direction], one[beside])):
+            agrees = agrees or (b > 0.0 and abs(a - b) < max(same_m, same * max(a, b)))
+    if not far:
+        return -1
+    return AGREES if agrees else DIFFERS
+
+
+@compiled
+def _goes_past(
+    one: NDArray[np.float32], other: NDArray[np.float32], direction: int, past_by: float
+) -> bool:
+    """Tell whether one goes on past all ends of the other in and beside a direction."""
+    past = one[direction] < 0.0
+    for aside in (-1, 0, 1):
+        end = other[(direction + aside) % len(other)]
+        past = past and 0.0 < end < -one[direction] * (1.0 - past_by)
+    return bool(past)

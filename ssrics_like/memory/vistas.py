@@ -1,7 +1,6 @@
-"""Whether one sees as far from one place as from another: a vista, direction by direction.
+"""Whether what is at the end of the hallway is the same: a vista, direction by direction.
 
-Who sees farther than to an end that is remembered is elsewhere, since nobody sees through walls.
-Who sees an end nearer than remembered may be elsewhere, or somebody stands in the way.
+Rooms along a hallway are alike near by, but their doors are not as far from its ends.
 """
 
 from __future__ import annotations
@@ -15,10 +14,11 @@ if TYPE_CHECKING:
 
 FAR_M = 12.0
 """What is nearer than this is in the room, and told by what surrounds the place."""
-SAME_M, SAME = 1.0, 0.12
-"""Two lengths that differ by the former, or by this share of the longer, are the same."""
-AGREEING, FARTHER, LESS_FAR = -0.4, 0.6, 0.3
-"""What it counts that an end agrees, that it goes on farther, and that it ends nearer."""
+SAME_M, SAME = 0.7, 0.06
+"""Two ends that differ by the former, or by this share of the longer, are the same."""
+PAST, PAST_BY = 0.45, 0.12
+"""What it counts that one goes on past an end of the other, by this share of how far that is at
+least: it may be a gap. That an end differs counts 1."""
 
 
 def contradiction(
@@ -31,7 +31,7 @@ def contradiction(
     Parameters
     ----------
     seen : ndarray, shape (directions,)
-        Metres to an end; 0 where nothing was seen, below 0 where it goes on at least so far.
+        Metres to an end; below 0 where it goes on at least so far; 0 where neither is known.
     turns : ndarray, shape (places,)
         By how many directions that is turned to fit each place.
     remembered : ndarray, shape (directions, places)
@@ -40,30 +40,27 @@ def contradiction(
     Returns
     -------
     ndarray, shape (places,), float64
-        From `AGREEING`, where all agrees, to `FARTHER` + `LESS_FAR`; 0 where nothing can be
-        compared.
+        1 where an end differs in some direction, else `PAST` where it goes on past one; else 0,
+        also where nothing can be compared.
     """
     # Compiled code is loaded only where it is needed.
     from ssrics_like.memory import vista_kernels  # noqa: PLC0415
 
-    found = np.zeros((len(turns), 3), np.bool_)
-    vista_kernels.compare_vistas(seen, turns, remembered, FAR_M, SAME_M, SAME, found)
-    share: NDArray[np.float64] = found @ np.array([AGREEING, FARTHER, LESS_FAR])
-    return share
+    differs, past = np.zeros((2, len(turns)), np.bool_)
+    vista_kernels.compare_vistas(
+        seen, turns, remembered, FAR_M, SAME_M, SAME, PAST_BY, differs, past
+    )
+    return np.where(differs, 1.0, np.where(past, PAST, 0.0))
 
 
-def farther(one: NDArray[np.float32], other: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the farther of two vistas in each direction; an end, if both may be that.
-
-    As perception does with two beams, of which memory knows nothing.
+def gathered(remembered: NDArray[np.float32], seen: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return what is known of a vista after another look: the ends seen last.
 
     Parameters
     ----------
-    one, other : ndarray, shape (directions,)
+    remembered, seen : ndarray, shape (directions,)
         As for `contradiction`, of one place.
     """
-    found = np.where(np.abs(other) > np.abs(one), other, one)
-    for end, more in ((one, other), (other, one)):
-        same = (end > 0.0) & (more < 0.0) & (-more <= (1.0 + SAME) * end)
-        found = np.where(same, end, found)
-    return np.asarray(found, np.float32)
+    unknown = (seen <= 0.0) & (remembered <= 0.0)
+    known = np.where(seen > 0.0, seen, remembered)
+    return np.asarray(np.where(unknown, np.minimum(seen, remembered), known), np.float32)

@@ -26,7 +26,7 @@ from ssrics_like.poses import Pose
 ELSEWHERE = 0.05
 """Weight of the hypothesis that the robot may be anywhere, beside that of a landmark that begins a
 new part of the graph, or of being where it is said to begin."""
-SURE = 0.85
+SURE = 0.9
 """So sure a robot that was lost must be of a landmark until its whereabouts are proven: buildings
 have rows of doorways that look alike."""
 PROOF = 6.0

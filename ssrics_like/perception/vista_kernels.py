@@ -1,4 +1,4 @@
-"""The compiled inner loop of how far one sees from a place."""
+"""The compiled inner loop of what is at the end of the hallway, in all directions."""
 
 from __future__ import annotations
 
@@ -16,8 +16,6 @@ STEEP = 2.0
 between the beams: along a wall one does not see to where it ends."""
 NOISE_M = 0.1
 """So much more does not matter: the laser is wrong by some centimetres."""
-SAME = 0.12
-"""What is seen to go on by this share farther than an end, at most, is that end."""
 
 
 @compiled
@@ -27,9 +25,13 @@ def look_far(
     ranges_m: NDArray[np.float64],
     place: tuple[float, float, float],
     farthest_m: float,
-    out: NDArray[np.float64],
+    nearest_m: float,
+    ratio: float,
+    lengths_m: NDArray[np.float64],
+    counts: NDArray[np.int64],
+    beams: NDArray[np.int64],
 ) -> None:
-    """Note how far away from a place the ends of a scan's beams are.
+    """Sort the ends of a scan's beams by direction and by how far from a place they are.
 
     Parameters
     ----------
@@ -39,30 +41,34 @@ def look_far(
         The scan.
     farthest_m : float
         A reading that is not above 0 and below this says nothing.
-    out : ndarray, shape (directions,)
-        Metres, the first one ahead of the place, then counter-clockwise; 0 where nothing was seen,
-        below 0 where it goes on at least so far. Changed where something is farther. What lies
-        between two directions counts for both.
+    nearest_m, ratio : float
+        Where the first class of lengths begins, and by how much each begins farther than the last.
+    lengths_m, counts : ndarray, shape (directions, classes)
+        Sum and number of the lengths of each class, of walls that face the laser; added to. The
+        first direction is ahead of the place, the others counter-clockwise. A beam counts for both
+        of the directions that it lies between.
+    beams : ndarray, shape (directions, classes)
+        Number of all lengths, whatever they meet; added to.
     """
-    directions, beams = len(out), len(ranges_m)
-    half = math.pi / directions
-    for i in range(beams):
+    directions, classes = counts.shape
+    width = 2.0 * math.pi / directions
+    for i in range(len(ranges_m)):
         if not 0.0 < ranges_m[i] < farthest_m:
             continue
         angle = pose[2] + bearings_rad[i]
         x = pose[0] + ranges_m[i] * math.cos(angle) - place[0]
         y = pose[1] + ranges_m[i] * math.sin(angle) - place[1]
         length = math.hypot(x, y)
-        if not (
-            _faced(bearings_rad, ranges_m, i, i - 1) or _faced(bearings_rad, ranges_m, i, i + 1)
-        ):
-            length = -length
-        halves = round((math.atan2(y, x) - place[2]) / half)
-        first = (halves // 2) % directions
-        out[first] = farther(out[first], length)
-        if halves % 2:
-            second = (first + 1) % directions
-            out[second] = farther(out[second], length)
+        if length <= nearest_m:
+            continue
+        first = math.floor((math.atan2(y, x) - place[2]) / width)
+        farther = min(int(math.log(length / nearest_m) / math.log(ratio)), classes - 1)
+        wall = _faced(bearings_rad, ranges_m, i, i - 1) or _faced(bearings_rad, ranges_m, i, i + 1)
+        for direction in (first % directions, (first + 1) % directions):
+            beams[direction, farther] += 1
+            if wall:
+                lengths_m[direction, farther] += length
+                counts[direction, farther] += 1
 
 
 @compiled
@@ -74,13 +80,3 @@ def _faced(
         return False
     between = ranges_m[beam] * abs(bearings_rad[beam] - bearings_rad[other])
     return bool(abs(ranges_m[beam] - ranges_m[other]) <= STEEP * between + NOISE_M)
-
-
-@compiled
-def farther(one: float, other: float) -> float:
-    """Return the farther of two lengths of a vista; an end if both may be that."""
-    if one > 0.0 > other:
-        return one if -other <= (1.0 + SAME) * one else other
-    if other > 0.0 > one:
-        return other if -one <= (1.0 + SAME) * other else one
-    return one if abs(one) >= abs(other) else other
