@@ -166,7 +166,7 @@ def put_down(spec: Spec, other: Spec, kidnaps: int) -> Counter:
     rng, found = np.random.default_rng((9, spec.seed)), Counter()
     t_s, index = last.t_s, last.index
     ahead = scans_with_four_ahead(drive, mind)
-    while sum(found.values()) < kidnaps:
+    while ahead and sum(found.values()) < kidnaps:
         i = int(rng.integers(ahead))
         if drive[i].true_pose.distance_m(last.true_pose) < AWAY_M:
             continue
@@ -193,7 +193,8 @@ def scans_with_four_ahead(drive: list[Observation], mind: Mind) -> int:
     path_m = np.array([(o.true_pose.x_m, o.true_pose.y_m) for o in drive])
     passed = [np.flatnonzero(np.hypot(*(path_m - (place.x_m, place.y_m)).T) < PASSED_M)
               for place in mind.places.values()]  # fmt: skip
-    return sorted(int(scans[-1]) for scans in passed if len(scans))[-FOUR]
+    last = sorted(int(scans[-1]) for scans in passed if len(scans))
+    return last[-FOUR] if len(last) >= FOUR else 0
 
 
 def judged_mark(decision: Decision, mind: Mind) -> str:
