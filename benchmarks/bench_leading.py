@@ -189,7 +189,10 @@ def put_down(spec: Spec, other: Spec, kidnaps: int) -> Counter:
 
 
 def scans_with_four_ahead(drive: list[Observation], mind: Mind) -> int:
-    """Return for how many scans, from the first one on, a drive goes on through four landmarks."""
+    """Return for how many scans, from the first one on, a drive goes on through four landmarks.
+
+    0 for a drive through fewer; there are no trials then, and the number told is less.
+    """
     path_m = np.array([(o.true_pose.x_m, o.true_pose.y_m) for o in drive])
     passed = [np.flatnonzero(np.hypot(*(path_m - (place.x_m, place.y_m)).T) < PASSED_M)
               for place in mind.places.values()]  # fmt: skip

@@ -107,7 +107,7 @@ class SurroundingsColumn(ViewColumn):
         u is 0 where half of the directions agree or fewer, 1 where 80 % do or more, and 0.5 where
         too few can be compared. Where something is seen now where a view was taken, that counts if
         it agrees more: the place is perceived astray then. v is what `contradiction` says of places
-        of which more than half of the directions agree. It is not above that of equal ones.
+        of which more than half of the directions agree.
         """
         self.check(requested)
         assert isinstance(requested, View)

@@ -30,7 +30,7 @@ lasers say so by a large number."""
 RATIO = 1.06
 """Lengths that differ by so much at most are of one wall."""
 FEWEST = 3
-"""Beams that make an end."""
+"""Beams that make an end, or show that it goes on: one or two slip through any gap."""
 FAR_M = 12.0
 """Where no end is seen it matters how far it goes on at least, if it is farther than this."""
 MEMORY_M = 10.0

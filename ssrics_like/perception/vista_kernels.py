@@ -51,7 +51,7 @@ def look_far(
         Number of all lengths, whatever they meet; added to.
     """
     directions, classes = counts.shape
-    width = 2.0 * math.pi / directions
+    width, step = 2.0 * math.pi / directions, math.log(ratio)
     for i in range(len(ranges_m)):
         if not 0.0 < ranges_m[i] < farthest_m:
             continue
@@ -62,7 +62,7 @@ def look_far(
         if length <= nearest_m:
             continue
         first = math.floor((math.atan2(y, x) - place[2]) / width)
-        farther = min(int(math.log(length / nearest_m) / math.log(ratio)), classes - 1)
+        farther = min(int(math.log(length / nearest_m) / step), classes - 1)
         wall = _faced(bearings_rad, ranges_m, i, i - 1) or _faced(bearings_rad, ranges_m, i, i + 1)
         for direction in (first % directions, (first + 1) % directions):
             beams[direction, farther] += 1
