@@ -23,7 +23,7 @@ from ssrics_like.bench.conditions import NOMINAL
 from ssrics_like.bench.drives import BenchDrive, OnPlan, Simulated, make_drive
 from ssrics_like.cues import read_cue
 from ssrics_like.library import find_cue
-from ssrics_like.memory.surroundings import agreement, vista_contradiction
+from ssrics_like.memory.surroundings import agreement, both_sides, by_direction
 from ssrics_like.perception import PerceptionBuffer
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.scenarios.modules import load_perception
@@ -33,6 +33,8 @@ SAME_M, OTHER_M = 0.7, 1.2
 SAME_RAD, BACK_RAD = 0.6, 2.5
 ALIKE = 0.7
 """Share of directions in which what surrounds two places that are alike agrees."""
+SIDES = 0.05
+"""A place of which the two sides agree to so much looks the same from both."""
 VIEWS = ("surroundings", "scan", "vista")
 PAIRS = ("the same, the same way", "the same, the other way", "different")
 
@@ -65,7 +67,9 @@ def compared(drive: BenchDrive, found: dict[str, dict[str, list[float]]]) -> Non
         if not i:
             continue
         others = np.array([other.view for other in around[:i]])
-        alike, apart = agreement(one.view, others), vista_contradiction(one.view, others)
+        alike, sides = agreement(one.view, others), both_sides(one.view, by_direction(others))
+        likely = sides.agreeing >= alike - SIDES  # it may look the same from both
+        apart = np.where(likely, sides.apart, np.inf).min(axis=0)
         for j, other in enumerate(around[:i]):
             pair = pair_of(one, other)
             if pair is not None and not math.isnan(alike[j]):

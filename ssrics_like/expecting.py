@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -14,6 +15,7 @@ from ssrics_like.memory import (
     Hypothesis,
     Listed,
     Retrieval,
+    Sides,
     TopologicalMemory,
     Value,
     View,
@@ -42,12 +44,21 @@ class Expecting:
         Where the robot believes to be.
     landmarks : TopologicalMemory
         All there are.
+    sides_of : callable
+        Tells of a reflex from which side each of some landmarks would be seen.
     """
 
-    def __init__(self, whereabouts: Whereabouts, landmarks: TopologicalMemory) -> None:
+    def __init__(
+        self,
+        whereabouts: Whereabouts,
+        landmarks: TopologicalMemory,
+        sides_of: Callable[[Reflex, Collection[str]], Mapping[str, Sides]],
+    ) -> None:
+        self._sides_of = sides_of
         self._whereabouts = whereabouts
         self._landmarks = landmarks
         self._expected = Expected()
+        self._looks: list[dict[str, float]] = []
         self._asked_for: tuple[int, tuple[Hypothesis, ...]] | None = None
 
     def at(self, reflex: Reflex) -> None:
@@ -55,7 +66,9 @@ class Expecting:
         asked = reflex.event, self._whereabouts.hypotheses
         if self._asked_for != asked:  # rules ask, and decide, about the same place
             self._asked_for = asked
-            self._expected = self._whereabouts.expect(here_of(reflex), self._landmarks)
+            self._expected = self._whereabouts.expect(
+                here_of(reflex), self._landmarks, partial(self._sides_of, reflex)
+            )
 
     def seen_there(
         self, reflex: Reflex, view_of: Callable[[str], View | None], look: Look
@@ -90,25 +103,52 @@ class Expecting:
         }
         return Listed(near, -self._expected.elsewhere)
 
-    def evidence(self, recalled: Retrieval | None) -> tuple[dict[str, float], float]:
+    def noted(self, recalled: Retrieval | None) -> tuple[dict[str, float], float]:
         """Return what else but its place speaks for each landmark, and for none of them.
 
-        That it is familiar does not: how often it was met says nothing of where the robot has come
-        since, and would count again at every landmark.
+        It is kept, for it counts as well when the same place is perceived again.
         """
         if recalled is None:
             return {}, 0.0
         found = recalled.candidates
-        evidence = {
-            str(name): float(context) + self._expected[str(name)]
-            for name, context in zip(found.names, found.by_context, strict=True)
-        }
+        names = [str(name) for name in found.names]
+        looks = [*self._earlier, dict(zip(names, found.by_context.tolist(), strict=True))]
+        context = _mean(names, looks)
+        self._looks = looks
+        evidence = {name: context[i] + self._expected[name] for i, name in enumerate(names)}
         return evidence, found.threshold_by_context
 
     def confidence(self, recalled: Retrieval) -> float:
-        """Return how probable it is that what was recalled, or that nothing was, is right."""
-        share = recalled.share
+        """Return how probable it is that what was recalled, or that nothing was, is right.
+
+        That a landmark is familiar does not count for a robot in doubt: how often it was met says
+        nothing of where the robot has come since, and would count again at every landmark.
+        """
         name = None if recalled.chunk is None else recalled.chunk.name
-        if self._whereabouts.in_doubt:  # what was seen lately is not therefore nearer
-            share = min(share, recalled.share_by_context)
+        in_doubt = self._whereabouts.in_doubt
+        share = self._share_by_context(recalled) if in_doubt else recalled.share
         return share if self._whereabouts.settled(name, share) else min(share, UNSETTLED)
+
+    def _share_by_context(self, recalled: Retrieval) -> float:
+        found = recalled.candidates
+        context = found.by_context
+        if earlier := self._earlier:
+            names = [str(name) for name in found.names]
+            now = dict(zip(names, context.tolist(), strict=True))
+            context = np.array(_mean(names, [*earlier, now]))
+        return recalled.share_of(context, found.threshold_by_context)
+
+    @property
+    def _earlier(self) -> list[dict[str, float]]:
+        """What a robot in doubt has seen before of the place that it perceives again now."""
+        here = self._whereabouts
+        return self._looks if here.again and here.in_doubt else []
+
+
+def _mean(names: list[str], looks: list[dict[str, float]]) -> list[float]:
+    """Average what several looks at one place say: it counts once, however often one looks.
+
+    A landmark that was none at first counts as the last look says.
+    """
+    last = looks[-1]
+    return [sum(look.get(name, last[name]) for look in looks) / len(looks) for name in names]

@@ -9,7 +9,7 @@ compared with where the robot expects its landmarks: see `Whereabouts`.
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -27,6 +27,7 @@ from ssrics_like.memory import (
     ListedSimilarity,
     Request,
     Retrieval,
+    Sides,
     TopologicalMemory,
     Uncertainty,
     Value,
@@ -112,7 +113,7 @@ class LandmarkModules:
         self.home = home
         self.appraisal = Appraisal(self.declarative, topological, self.profile.lasting_s)
         self.whereabouts = Whereabouts(self._uncertainty, topological.links)
-        self._expecting = Expecting(self.whereabouts, topological)
+        self._expecting = Expecting(self.whereabouts, topological, self._sides_of)
         self._passing = Passing(topological.links)
         if len(topological):
             self.whereabouts.lose()
@@ -299,12 +300,22 @@ class LandmarkModules:
         if view is not None:
             self.declarative.replace(name, "view", View(known.name, view))
 
+    def _sides_of(self, reflex: Reflex, landmarks: Collection[str]) -> dict[str, Sides]:
+        """Tell from which side landmarks would be seen, if a reflex was fired there."""
+        if self._look is None:
+            return {}
+        views = {name: v.descriptor for name in landmarks if (v := self.view_of(name)) is not None}
+        if not views:
+            return {}
+        sides = self.profile.surroundings.sides(reflex.view, np.array(list(views.values())))
+        return dict(zip(views, sides, strict=True))
+
     def _likeness_of_places(self, asked: Value) -> Listed:
         return self._expecting.likeness(asked)
 
     @property
     def _evidence(self) -> tuple[dict[str, float], float]:
-        return self._expecting.evidence(None if self._recalled is None else self._recalled[0])
+        return self._expecting.noted(None if self._recalled is None else self._recalled[0])
 
     def _asked(self, slot: str, word: str) -> Value:
         """Look up what a request asks for; only views and places are more than words."""

@@ -274,9 +274,11 @@ def test_by_context_all_are_as_familiar_as_each_other():
     assert found.share > 0.8
     a, b = (math.exp(row.base_level) for row in found.candidates.rows())
     none = math.exp(-5.0) / ((a + b) / 2)
-    assert found.share_by_context == pytest.approx(1 / (2 + none))
+    candidates = found.candidates
+    share = found.share_of(candidates.by_context, candidates.threshold_by_context)
+    assert share == pytest.approx(1 / (2 + none))
     nothing = memory.retrieve(request("unheard-of"), 10.0)
-    assert nothing.share_by_context == nothing.share == 1.0
+    assert nothing.share == nothing.share_of(nothing.candidates.by_context, -5.0) == 1.0
 
 
 def test_a_retrieval_does_not_strengthen():

@@ -14,9 +14,13 @@ from ssrics_like.memory.surroundings import (
     REACH_M,
     SAME,
     SAME_M,
+    STRANGE,
     UNKNOWN_M,
     agreement,
+    both_sides,
+    by_direction,
 )
+from ssrics_like.memory.surroundings_similarity import KNOWN, MISTAKEN
 
 N = 36
 
@@ -102,7 +106,7 @@ def test_similarity_goes_from_chance_to_the_same():
     column.append(View("hidden", view(lengths, 6.0)))
     same, half, none, hidden = column.similarity(View("asked", view(lengths))).tolist()
     assert same == 0.0
-    assert half == pytest.approx(-6.0 * (1 - (22 / 36 - 0.5) / 0.3))
+    assert half == pytest.approx(-6.0 * (1 - (22 / 36 - STRANGE) / (KNOWN - STRANGE)))
     assert none == -6.0
     assert hidden == -3.0
 
@@ -138,3 +142,32 @@ def test_what_is_seen_where_a_view_was_taken_counts_for_that_view_if_it_agrees_m
     assert seen[0] == 0.0
     unknown = column.similarity(View("now", view(drawn(2)), {"other": view(drawn(3), 9.0)}))
     np.testing.assert_array_equal(unknown, plain)
+
+
+@pytest.mark.parametrize("half", [0, 1])
+@pytest.mark.parametrize("aside", [-2, 0, 1])
+def test_what_is_seen_tells_from_which_side_and_how_turned(half, aside):
+    remembered = view(drawn(4))
+    seen = view(np.roll(drawn(4), 18 * half - aside))
+    (sides,) = SurroundingsSimilarity(-7.0, -3.0).sides(seen, remembered[None])
+    assert sides[half].nats == pytest.approx(0.0, abs=1e-6)
+    assert sides[half].turn_rad == pytest.approx(aside * 2 * np.pi / N)
+    assert sides[1 - half].nats < -3.0
+
+
+def test_a_side_is_never_excluded_and_none_is_told_where_too_little_is_known():
+    similarity = SurroundingsSimilarity(-60.0, -3.0)
+    plain, hidden = similarity.sides(
+        view(drawn(4)), np.array([view(drawn(4)), view(drawn(4), 9.0)])
+    )
+    assert plain.behind.nats == pytest.approx(np.log(MISTAKEN), abs=1e-3)
+    assert hidden.ahead == hidden.behind == (0.0, None)
+
+
+def test_the_better_side_is_what_agreement_says():
+    rng = np.random.default_rng(3)
+    places = np.array([view(drawn(i)) for i in range(5)])
+    seen = view(np.roll(drawn(2), 18) + rng.normal(0.0, 0.1, N))
+    found = both_sides(seen, by_direction(places))
+    assert found.agreeing.max(axis=0) == pytest.approx(agreement(seen, places))
+    assert found.agreeing[:, 2].argmax() == 1

@@ -177,7 +177,9 @@ def test_what_is_seen_of_a_place_is_added_turned_as_it_is(half):
 def test_a_place_of_which_nothing_is_known_takes_the_first_view():
     seen = view(room(), 0.0, vista(d9=30.0))
     nothing = view(np.full(N, 6.0), 6.0, np.zeros(N))
-    assert joined(nothing, seen, np.pi / 2) is seen
+    assert joined(nothing, seen, 1.0) is seen
+    behind = joined(nothing, seen, 3.0)  # the graph has it the other way round
+    assert behind.reshape(3, N) == pytest.approx(np.roll(seen.reshape(3, N), 18, axis=1))
     assert joined(seen, nothing, 0.0) is None
     assert joined(seen, seen, 0.0) is None
     assert joined(seen, view(room(3), 0.0, vista()), 0.0) is None

@@ -8,7 +8,8 @@ import pytest
 
 from ssrics_like import load_memory
 from ssrics_like.memory.base_level import base_level
-from ssrics_like.memory.expectation import ASTRAY, ASTRAY_M, FAR, Expected, Uncertainty
+from ssrics_like.memory.cases import ASTRAY, ASTRAY_M
+from ssrics_like.memory.expectation import FAR, Expected, Uncertainty
 from ssrics_like.memory.hypotheses import BELOW, Here, Hypothesis, likely
 from ssrics_like.memory.links import Link, Links
 from ssrics_like.memory.whereabouts import SURE, Whereabouts

@@ -16,6 +16,7 @@ from ssrics_like.memory.parameters import MemoryParameters
 from ssrics_like.memory.routes import Route, shortest_routes
 from ssrics_like.memory.saved import PastRun, RememberedChunk, SavedMemory
 from ssrics_like.memory.saved_file import load_memory_file, save_memory_file
+from ssrics_like.memory.sides import Sides
 from ssrics_like.memory.similarity import (
     FunctionSimilarity,
     Listed,
@@ -25,7 +26,7 @@ from ssrics_like.memory.similarity import (
     ViewSimilarity,
 )
 from ssrics_like.memory.store import load_topology, save_topology
-from ssrics_like.memory.surroundings import SurroundingsSimilarity
+from ssrics_like.memory.surroundings_similarity import SurroundingsSimilarity
 from ssrics_like.memory.topological import TopologicalMemory
 from ssrics_like.memory.whereabouts import Whereabouts
 from ssrics_like.memory.worth import Worth
@@ -52,6 +53,7 @@ __all__ = [
     "Retrieval",
     "Route",
     "SavedMemory",
+    "Sides",
     "SlotSimilarity",
     "SurroundingsSimilarity",
     "TableSimilarity",

@@ -128,15 +128,10 @@ class Retrieval:
         noise aside.
         """
         found = self.candidates
-        return self._share(found.total - found.noise, found.threshold)
+        return self.share_of(found.total - found.noise, found.threshold)
 
-    @property
-    def share_by_context(self) -> float:
-        """The same, with all as familiar as each other."""
-        found = self.candidates
-        return self._share(found.by_context, found.threshold_by_context)
-
-    def _share(self, activations: NDArray[np.float64], threshold: float) -> float:
+    def share_of(self, activations: NDArray[np.float64], threshold: float) -> float:
+        """Return the same, were these the activations and this the threshold."""
         if not math.isfinite(threshold):  # activation is not reckoned
             return 1.0
         odds = np.append(activations, threshold)

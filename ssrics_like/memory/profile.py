@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ssrics_like.memory.parameters import MemoryParameters
 from ssrics_like.memory.similarity import SlotSimilarity, TableSimilarity, ViewSimilarity
-from ssrics_like.memory.surroundings import SurroundingsSimilarity
+from ssrics_like.memory.surroundings_similarity import SurroundingsSimilarity
 
 SECTORS = ("left", "front", "right")
 
@@ -59,8 +59,8 @@ class MemoryProfile(MemoryParameters):
     )
     sector_difference: Annotated[float, Field(le=0)] = 0.0
     view_difference: Annotated[float, Field(le=0)] = -2.0
-    surroundings_difference: Annotated[float, Field(le=0)] = -6.0
-    vista_difference: Annotated[float, Field(le=0)] = -3.0
+    surroundings_difference: Annotated[float, Field(le=0)] = -7.0
+    vista_difference: Annotated[float, Field(le=0)] = -4.5
     place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 0.15
     direction_sigma_rad: Annotated[float, Field(ge=1e-3, le=1e3)] = 0.25
     place_drift: Annotated[float, Field(ge=0, le=1e3)] = 0.01
@@ -80,9 +80,12 @@ class MemoryProfile(MemoryParameters):
         pairs = itertools.combinations(SECTORS, 2)
         return {
             "sector": TableSimilarity(dict.fromkeys(pairs, self.sector_difference)),
-            "view": (
-                SurroundingsSimilarity(self.surroundings_difference, self.vista_difference)
-                if surroundings
-                else ViewSimilarity(self.view_difference)
-            ),
+            "view": self.surroundings if surroundings else ViewSimilarity(self.view_difference),
         }
+
+    @property
+    def surroundings(self) -> SurroundingsSimilarity:
+        """How what surrounds two places compares."""
+        return SurroundingsSimilarity(
+            self.surroundings_difference, self.vista_difference, self.max_similarity
+        )

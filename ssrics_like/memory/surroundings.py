@@ -7,17 +7,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ssrics_like.memory.chunks import View
-from ssrics_like.memory.columns import SimilarityScale, SlotColumn
-from ssrics_like.memory.continuous import ViewColumn
 from ssrics_like.memory.vistas import contradiction, gathered
 
 if TYPE_CHECKING:
     from typing import Any
 
     from numpy.typing import NDArray
-
-    from ssrics_like.memory.chunks import Value
 
 UNKNOWN_M = 1.0
 """A direction of which more is unknown is not compared."""
@@ -33,98 +28,13 @@ REACH_M = 6.0
 """Views end there."""
 FEWEST = 10
 """Fewer directions to compare say nothing."""
-STRANGE, KNOWN = 0.5, 0.8
-"""Share of directions that agree in two places that are different, and in one met twice (medians of
-pairs of doorways in simulated buildings, `benchmarks/bench_views.py`)."""
-NEITHER = 0.5
+STRANGE = 0.5
+"""Share of directions that agree in two places that are different (median of pairs of doorways in
+simulated buildings, `benchmarks/bench_views.py`)."""
 SIDES = 0.05
 """A place of which the two sides agree to so much looks the same from both."""
 ALIKE = 0.6
 """Two views of one place that agree so far tell how one of them is turned."""
-
-
-class SurroundingsSimilarity:
-    """Similarity of the surroundings of two places, from either side.
-
-    Parameters
-    ----------
-    difference : float
-        Similarity where no more directions agree than by chance.
-    vista_difference : float
-        By how much it is less where what is seen in the distance contradicts.
-    """
-
-    def __init__(self, difference: float, vista_difference: float) -> None:
-        self._difference = difference
-        self._vista_difference = vista_difference
-
-    def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
-        """Make an empty column for the slot of that name."""
-        return SurroundingsColumn(
-            slot, scale._replace(different=self._difference), self._vista_difference
-        )
-
-
-class SurroundingsColumn(ViewColumn):
-    """Surroundings of many places: lengths all around, what is unknown of them, and vistas.
-
-    Parameters
-    ----------
-    slot, scale : as for `ViewColumn`
-    vista_difference : float
-        As for `SurroundingsSimilarity`.
-    """
-
-    def __init__(self, slot: str, scale: SimilarityScale, vista_difference: float) -> None:
-        super().__init__(slot, scale)
-        self._vista_difference = vista_difference
-        self._turned: _Places | None = None
-        self._row_of: dict[str, int] = {}
-
-    def append(self, value: Value | None) -> None:
-        """Add the view of the next chunk; None if it lacks the slot."""
-        if isinstance(value, View):
-            self._row_of[value.name] = len(self._views)
-        super().append(value)
-        self._turned = None
-
-    def replace(self, row: int, value: Value) -> None:
-        """Store another view for a chunk that has one."""
-        super().replace(row, value)
-        if isinstance(value, View):
-            self._row_of[value.name] = row
-        if self._turned is not None and self._rows is not None:  # the others stay as they are
-            one = _by_direction(self._rows.used[row : row + 1])
-            for rows, new in zip(self._turned, one, strict=True):
-                rows[:, row] = new[:, 0]
-
-    def _row(self, view: View) -> NDArray[np.float32]:
-        return view.descriptor
-
-    def similarity(self, requested: Value) -> NDArray[np.float64]:
-        """``different + (equal - different) * u + vista_difference * v``, shape (n,).
-
-        u is 0 where half of the directions agree or fewer, 1 where 80 % do or more, and 0.5 where
-        too few can be compared. Where something is seen now where a view was taken, that counts if
-        it agrees more: the place is perceived astray then. v is what `contradiction` says of places
-        of which more than half of the directions agree.
-        """
-        self.check(requested)
-        assert isinstance(requested, View)
-        if self._rows is None:
-            return np.full(len(self._views), self._scale.different)
-        if self._turned is None:
-            self._turned = _by_direction(self._rows.used)
-        agreeing, v = _compared(requested.descriptor, self._turned)
-        for name, seen in requested.there.items():
-            if (row := self._row_of.get(name)) is not None:
-                again, apart = _compared(seen, _by_direction(self._rows.used[row : row + 1]))
-                if again[0] > agreeing[row] or np.isnan(agreeing[row]):
-                    agreeing[row], v[row] = again[0], apart[0]
-        u = np.clip((agreeing - STRANGE) / (KNOWN - STRANGE), 0.0, 1.0)
-        u[np.isnan(agreeing)] = NEITHER
-        similarity = self._scale.different + (self._scale.equal - self._scale.different) * u
-        return similarity + self._vista_difference * v
 
 
 def agreement(view: NDArray[np.float32], places: NDArray[np.float32]) -> NDArray[np.float64]:
@@ -146,24 +56,50 @@ def agreement(view: NDArray[np.float32], places: NDArray[np.float32]) -> NDArray
     ndarray, shape (n,), float64
         The best of all ways of looking at it.
     """
-    return _best(_agreement(view, _by_direction(places))[0])
+    return np.asarray(np.fmax(*_agreement(view, by_direction(places))[0]))
 
 
-def vista_contradiction(
-    view: NDArray[np.float32], places: NDArray[np.float32]
-) -> NDArray[np.float64]:
-    """Return how far what is seen in the distance contradicts, of places whose surroundings agree.
+class BothSides(NamedTuple):
+    """How a view compares with places from the side from which each is remembered, and the other.
+
+    Attributes
+    ----------
+    agreeing : ndarray, shape (2, n)
+        As `agreement`.
+    apart : ndarray, shape (2, n)
+        As `vistas.contradiction`; 0 where no more surroundings agree than in different places.
+    turned_rad : ndarray, shape (2, n)
+        By how much the view is turned aside against what is remembered where they agree best.
+    """
+
+    agreeing: NDArray[np.float64]
+    apart: NDArray[np.float64]
+    turned_rad: NDArray[np.float64]
+
+
+def both_sides(view: NDArray[np.float32], places: Places) -> BothSides:
+    """Compare a view with places as they are remembered, and with their other sides.
 
     Parameters
     ----------
-    view, places : as for `agreement`
+    view : ndarray, shape (3 directions,)
+        Of one place.
+    places : Places
+        Others.
 
     Returns
     -------
-    ndarray, shape (n,), float64
-        As `vistas.contradiction`.
+    BothSides
     """
-    return _compared(view, _by_direction(places))[1]
+    agreeing, turns = _agreement(view, places)
+    vista = view[2 * len(places.lengths) :]
+    apart = np.zeros(agreeing.shape)
+    for side, turned, found in zip(agreeing, turns, apart, strict=True):
+        likely = np.flatnonzero(side > STRANGE)
+        found[likely] = contradiction(vista, turned[likely], places.vistas[:, likely])
+    directions = len(places.lengths)
+    aside = turns - np.array([[0], [directions // 2]])
+    return BothSides(agreeing, apart, aside * (2.0 * np.pi / directions))
 
 
 def joined(
@@ -186,9 +122,9 @@ def joined(
         added, or they look too different to tell how exactly one is turned to the other.
     """
     lengths, unknown, vista = remembered.reshape(3, -1)
-    if (unknown >= UNKNOWN_M).all():
-        return seen  # in the frame of the doorway, as all others are
-    agreeing, turns = _agreement(seen, _by_direction(remembered[np.newaxis]))
+    if (unknown >= UNKNOWN_M).all():  # in the frame of the doorway, as all others are
+        return seen if math.cos(turn_rad) >= 0.0 else _from_the_other_side(seen)
+    agreeing, turns = _agreement(seen, by_direction(remembered[np.newaxis]))
     as_it_is, half_a_turn_aside = np.nan_to_num(agreeing[:, 0], nan=0.0).tolist()
     half = int(half_a_turn_aside > as_it_is)
     if abs(half_a_turn_aside - as_it_is) < SIDES:  # it looks the same from both sides
@@ -205,7 +141,12 @@ def joined(
     return None if np.array_equal(view, remembered) else view
 
 
-class _Places(NamedTuple):
+def _from_the_other_side(view: NDArray[np.float32]) -> NDArray[np.float32]:
+    sides = view.reshape(3, 2, -1)
+    return np.ascontiguousarray(sides[:, ::-1]).ravel()
+
+
+class Places(NamedTuple):
     """Surroundings of many places, by direction, shape (directions, places).
 
     Attributes
@@ -226,10 +167,11 @@ class _Places(NamedTuple):
     vistas: NDArray[np.float32]
 
 
-def _by_direction(places: NDArray[np.float32]) -> _Places:
+def by_direction(places: NDArray[np.float32]) -> Places:
+    """Make ready what is remembered of places, shape (n, 3 directions), to be compared."""
     lengths, unknown, vistas = np.split(places.T, 3)
     known = unknown < UNKNOWN_M
-    return _Places(
+    return Places(
         np.ascontiguousarray(np.where(known, lengths, np.float32(np.inf))),
         np.ascontiguousarray(_per_m(lengths)),
         np.ascontiguousarray(known, np.float32),
@@ -242,7 +184,7 @@ def _per_m(lengths: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
 
 
 def _agreement(
-    view: NDArray[np.float32], places: _Places
+    view: NDArray[np.float32], places: Places
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Compare a view with places as they are, and from their other sides.
 
@@ -271,26 +213,3 @@ def _agreement(
         )  # fmt: skip
         turned[:] = asides[turned]
     return np.where(best < 0.0, np.nan, best), turns
-
-
-def _best(agreeing: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(np.fmax(*agreeing))
-
-
-def _compared(
-    view: NDArray[np.float32], places: _Places
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return how far surroundings agree, and how far vistas contradict; each of shape (n,).
-
-    A place that looks the same from both sides near by does not say from which one comes, so that
-    the side counts from which less contradicts.
-    """
-    agreeing, turns = _agreement(view, places)
-    best = _best(agreeing)
-    vista = view[2 * len(places.lengths) :]
-    apart = np.full(agreeing.shape, np.inf)
-    for side, turned, found in zip(agreeing, turns, apart, strict=True):
-        likely = np.flatnonzero((side > STRANGE) & (side >= best - SIDES))
-        found[likely] = contradiction(vista, turned[likely], places.vistas[:, likely])
-    least = apart.min(axis=0)
-    return best, np.where(np.isinf(least), 0.0, least)

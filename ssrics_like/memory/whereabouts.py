@@ -7,26 +7,22 @@ hypotheses, each a landmark and how the robot has come from there, until one is 
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
-from ssrics_like.memory.expectation import (
-    FAR,
-    Case,
-    Expected,
-    Uncertainty,
-    cases_anywhere,
-    cases_near,
-)
+from ssrics_like.memory.cases import Case, cases_anywhere, cases_near
+from ssrics_like.memory.expectation import FAR, Expected, Uncertainty
 from ssrics_like.memory.hypotheses import ANYWHERE, BELOW, PROVEN, Here, Hypothesis, likely
 from ssrics_like.memory.links import Link, Links
+from ssrics_like.memory.sides import SidesOf, unseen
 from ssrics_like.poses import Pose
 
 ELSEWHERE = 0.05
 """Weight of the hypothesis that the robot may be anywhere, beside that of a landmark that begins a
 new part of the graph, or of being where it is said to begin."""
-SURE = 0.9
+SURE = 0.95
 """So sure a robot that was lost must be of a landmark until its whereabouts are proven: buildings
 have rows of doorways that look alike."""
 PROOF = 6.0
@@ -61,14 +57,18 @@ class Whereabouts:
     ----------
     hypotheses : tuple of Hypothesis
         The most probable one first; none before the first landmark.
+    again : bool
+        Whether what is perceived now is the place that was marked last.
     """
 
     def __init__(self, uncertainty: Uncertainty, links: Links) -> None:
         self.hypotheses: _Several = ()
+        self.again = False
         self._sd = uncertainty
         self._links = links
         self._here, self._landmarks = ANYWHERE.at, _NO_LANDMARKS
         self._near: list[Case] = []
+        self._sides_of: SidesOf = unseen
         self._doubts = 0
         self._marked: Pose | None = None
         # What is perceived is compared with `_from`. In the place marked last those are the
@@ -167,7 +167,9 @@ class Whereabouts:
         met = likeliest.met if case is None else self._met(case)
         return met >= PROVEN or (met > 0 and share >= SURE)
 
-    def expect(self, here: Here, landmarks: Collection[str]) -> Expected:
+    def expect(
+        self, here: Here, landmarks: Collection[str], sides_of: SidesOf = unseen
+    ) -> Expected:
         """Tell how improbable each landmark is here.
 
         Parameters
@@ -176,27 +178,23 @@ class Whereabouts:
             What was perceived.
         landmarks : collection of str
             All there are.
+        sides_of : callable
+            Tells from which side each of them would be seen.
         """
-        self._here, self._landmarks = here, landmarks
-        again = self._marked is not None and self._marked.distance_m(here.place) < SAME_PLACE_M
-        self._from = self._before_mark if again else self.hypotheses
-        around: dict[str, Mapping[str, Link]] = {}
+        self._here, self._landmarks, self._sides_of = here, landmarks, sides_of
+        self.again = self._marked is not None and self._marked.distance_m(here.place) < SAME_PLACE_M
+        self._from = self._before_mark if self.again else self.hypotheses
+        self._near = cases_near(
+            self._from, functools.cache(self._links.seen_from), here, self._sd, sides_of
+        )
         total = sum(math.exp(hypothesis.weight) for hypothesis in self._from)
         odds: dict[str, float] = {}
-        anywhere = 0.0
-        self._near = []
-        for hypothesis in self._from:
-            landmark = hypothesis.landmark
-            if landmark is None:
-                anywhere += math.exp(hypothesis.weight) / total / max(len(landmarks), 1)
-                continue
-            if landmark not in around:
-                around[landmark] = self._links.seen_from(landmark)
-            cases = list(cases_near(hypothesis, around[landmark], here, self._sd))
-            self._near += cases
-            for case in cases:
-                p = math.exp(hypothesis.weight - case.nats) / total
-                odds[case.landmark] = odds.get(case.landmark, 0.0) + p
+        for case in self._near:
+            p = math.exp(case.before.weight - case.nats) / total
+            odds[case.landmark] = odds.get(case.landmark, 0.0) + p
+        lost = sum(math.exp(h.weight) for h in self._from if h.landmark is None)
+        lost = lost / total if total else 0.0
+        anywhere = lost / max(len(landmarks), 1)
         nats = {name: _nats(p + anywhere) for name, p in odds.items()}
         return Expected(nats, _nats(anywhere))
 
@@ -320,9 +318,8 @@ class Whereabouts:
         if any(hypothesis.landmark is None for hypothesis in before):
             lookalikes = {name: nats for name, nats in evidence.items() if name in self._landmarks}
             best = max(lookalikes.values(), default=0.0)
-            for name, nats in lookalikes.items():
-                if nats > best - BELOW:  # the others would be given up anyway
-                    cases += self._from_anywhere(name)
+            # The others would be given up anyway.
+            cases += self._from_anywhere([n for n, v in lookalikes.items() if v > best - BELOW])
         grown = [
             Hypothesis(
                 case.landmark, case.fix, here,
@@ -342,14 +339,10 @@ class Whereabouts:
         """Tell whether this case is beyond doubt: enough has fitted, and nothing else does."""
         return self._met(case) >= PROVEN and _outweighs(case.before, self._from)
 
-    def _from_anywhere(self, landmark: str) -> list[Case]:
-        """Return the cases that this is a landmark, and the robot was anywhere before."""
+    def _from_anywhere(self, landmarks: Collection[str]) -> list[Case]:
+        """Return the cases that this is one of these landmarks, the robot having been anywhere."""
         of = len(self._landmarks)
-        return [
-            case
-            for hypothesis in self._from if hypothesis.landmark is None
-            for case in cases_anywhere(hypothesis, self._here, landmark, of, self._sd)
-        ]  # fmt: skip
+        return cases_anywhere(self._from, self._here, landmarks, of, self._sd, self._sides_of)
 
     @staticmethod
     def _met(case: Case) -> int:
@@ -360,7 +353,7 @@ class Whereabouts:
         """Return the likeliest way in which this can be a landmark."""
         cases = [case for case in self._near if case.landmark == landmark]
         if landmark in self._landmarks:
-            cases += self._from_anywhere(landmark)
+            cases += self._from_anywhere([landmark])
         return max(cases, key=lambda case: case.before.weight - case.nats, default=None)
 
 

@@ -1,0 +1,220 @@
+"""What a robot that believes to have been at a landmark expects to perceive where.
+
+A *case* is one landmark that something may be, if a hypothesis about where the robot was is true.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from ssrics_like.memory.expectation import FAR, Uncertainty
+from ssrics_like.memory.hypotheses import Here, Hypothesis
+from ssrics_like.memory.links import Link
+from ssrics_like.memory.sides import EITHER, Sides, SidesOf
+from ssrics_like.poses import Pose
+
+TURN_CAP = 3.0
+"""A direction, however wrong, counts no more than this: now and then one is mismeasured."""
+ASTRAY, ASTRAY_M = 0.05, 0.4
+"""So often a landmark is perceived astray, and how far then (standard deviation)."""
+TURNED_RAD = 0.1
+"""How well a robot that may be anywhere knows by what it sees how it is turned (standard
+deviation)."""
+UNDIRECTED_RAD2 = 10.0
+"""Variance of a direction of which nothing is known."""
+
+
+class Case(NamedTuple):
+    """A hypothesis, and which landmark this would be.
+
+    Attributes
+    ----------
+    landmark : str
+        Which.
+    nats : float
+        Minus the logarithm of how probable it is to perceive it here.
+    before : Hypothesis
+        The hypothesis.
+    expected : Pose
+        Where it lies, as expected before.
+    known_m2 : float
+        Variance of each coordinate of that, and of where the robot is.
+    fix : Link
+        The landmark's frame in that of path integration, now that it was perceived here.
+    link : Link or None
+        The landmark's frame in that of the one before; None if that is not known.
+    """
+
+    landmark: str
+    nats: float
+    before: Hypothesis
+    expected: Pose
+    known_m2: float
+    fix: Link
+    link: Link | None
+
+
+def cases_near(
+    hypotheses: Iterable[Hypothesis],
+    around: Callable[[str], Mapping[str, Link]],
+    here: Here,
+    sd: Uncertainty,
+    sides_of: SidesOf,
+) -> list[Case]:
+    """Compare where something is perceived with where each landmark is expected.
+
+    Parameters
+    ----------
+    hypotheses : iterable of Hypothesis
+        Of a landmark, or of none; the latter expect nothing.
+    around : callable
+        Tells of a landmark where others lie, seen from there.
+    here : Here
+        What was perceived.
+    sd : Uncertainty
+        How well that is known.
+    sides_of : callable
+        Tells of landmarks from which side each would be seen.
+
+    Returns
+    -------
+    list of Case
+        Those that are not as good as excluded.
+    """
+    found = [
+        case
+        for hypothesis in hypotheses if hypothesis.landmark is not None
+        for case in _by_place(hypothesis, around(hypothesis.landmark), here, sd)
+    ]  # fmt: skip
+    if not here.directed:
+        return found
+    seen = sides_of(dict.fromkeys(case.landmark for case in found))
+    return [_by_direction(case, here, sd, seen.get(case.landmark, EITHER)) for case in found]
+
+
+def _by_place(
+    hypothesis: Hypothesis, around: Mapping[str, Link], here: Here, sd: Uncertainty
+) -> Iterator[Case]:
+    """Yield what there may be by its place alone."""
+    drift = sd.since(hypothesis, here)
+    # Seen from the landmark before; most lie far from there, and are done with quickly.
+    seen = here.place.seen_from(hypothesis.fix.pose)
+    for name, link in around.items():
+        known_m2 = hypothesis.fix.variance_m2_after(link) + drift.variance_m2
+        off_m2 = (seen.x_m - link.pose.x_m) ** 2 + (seen.y_m - link.pose.y_m) ** 2
+        if off_m2 > 2.0 * FAR * (known_m2 + max(ASTRAY_M, sd.place_m) ** 2):
+            continue
+        nats = _nats_of_place(off_m2, known_m2, sd.place_m**2)
+        if nats > FAR:
+            continue
+        expected = hypothesis.fix.and_then(link)
+        gain = known_m2 / (known_m2 + sd.place_m**2)
+        fix = Link(
+            Pose(
+                expected.pose.x_m + gain * (here.place.x_m - expected.pose.x_m),
+                expected.pose.y_m + gain * (here.place.y_m - expected.pose.y_m),
+                expected.pose.theta_rad,
+            ),
+            gain * sd.place_m**2,
+            expected.variance_rad2 + drift.variance_rad2,
+        )
+        yield _measured(Case(name, nats, hypothesis, expected.pose, known_m2, fix, None), drift)
+
+
+def _measured(case: Case, drift: Link) -> Case:
+    """Return the same with where the landmark lies from the one before, as it was perceived now."""
+    before, fix = case.before.fix, case.fix
+    link = Link(
+        fix.pose.seen_from(before.pose),
+        max(before.variance_m2 + drift.variance_m2, fix.variance_m2),
+        min(before.variance_rad2 + drift.variance_rad2, fix.variance_rad2),
+    ).bounded
+    return case._replace(link=link)
+
+
+def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
+    """Return the same, given its direction and from which side it looks like what is seen.
+
+    From the other side a doorway is the same, half a turn off.
+    """
+    expected_rad, known_rad2 = case.fix.pose.theta_rad, case.fix.variance_rad2
+    ahead_rad = here.place.theta_rad - expected_rad
+    variance_rad2 = known_rad2 + sd.direction_rad**2
+    reverse = _reverse(ahead_rad, variance_rad2)
+    sides = (1.0 - reverse) * math.exp(seen.ahead.nats), reverse * math.exp(seen.behind.nats)
+    side = seen.ahead if sides[0] >= sides[1] else seen.behind
+    turn_rad = math.remainder(ahead_rad - (side.turn_rad or 0.0), math.pi)
+    nats = case.nats + min(0.5 * turn_rad**2 / variance_rad2, TURN_CAP) - math.log(sum(sides))
+    gain = known_rad2 / variance_rad2
+    pose = case.fix.pose
+    theta_rad = math.remainder(expected_rad + gain * turn_rad, math.tau)
+    fix = Link(
+        Pose(pose.x_m, pose.y_m, theta_rad), case.fix.variance_m2, gain * sd.direction_rad**2
+    )
+    drift = sd.since(case.before, here)
+    return _measured(case._replace(nats=nats, fix=fix), drift)
+
+
+def _reverse(turn_rad: float, variance_rad2: float) -> float:
+    """Return how probable it is that a direction so far from the one expected is its reverse."""
+    ahead, behind = (
+        0.5 * math.remainder(turn, math.tau) ** 2 / variance_rad2
+        for turn in (turn_rad, turn_rad + math.pi)
+    )
+    return 1.0 / (1.0 + math.exp(min(behind - ahead, 700.0)))
+
+
+def _nats_of_place(off_m2: float, known_m2: float, place_m2: float) -> float:
+    """Return minus the logarithm of a density, of a place known for certain and hit being 1."""
+
+    def nats(variance_m2: float) -> float:
+        return 0.5 * off_m2 / variance_m2 + math.log(variance_m2 / place_m2)
+
+    return -float(
+        np.logaddexp(
+            math.log(1.0 - ASTRAY) - nats(known_m2 + place_m2),
+            math.log(ASTRAY) - nats(known_m2 + max(ASTRAY_M**2, place_m2)),
+        )
+    )
+
+
+def cases_anywhere(
+    hypotheses: Iterable[Hypothesis],
+    here: Here,
+    landmarks: Collection[str],
+    of: int,
+    sd: Uncertainty,
+    sides_of: SidesOf,
+) -> list[Case]:
+    """Take some landmarks for as probable as every other of so many, from either side.
+
+    Parameters
+    ----------
+    hypotheses : iterable of Hypothesis
+        Those of none count.
+    here, sd, sides_of : as for `cases_near`
+    landmarks : collection of str
+        Which.
+    of : int
+        How many there are.
+    """
+    lost = [hypothesis for hypothesis in hypotheses if hypothesis.landmark is None]
+    if not lost:
+        return []
+    seen = sides_of(landmarks) if here.directed else {}
+    halves = (0.0, math.pi) if here.directed else (0.0,)
+    x_m, y_m, theta_rad = here.place.x_m, here.place.y_m, here.place.theta_rad
+    found = []
+    for name in landmarks:
+        for half_rad, side in zip(halves, seen.get(name, EITHER), strict=False):
+            turned_rad = math.remainder(theta_rad + half_rad - (side.turn_rad or 0.0), math.tau)
+            sd_rad = sd.direction_rad if side.turn_rad is None else TURNED_RAD
+            variance_rad2 = sd_rad**2 if here.directed else UNDIRECTED_RAD2
+            fix = Link(Pose(x_m, y_m, turned_rad), sd.place_m**2, variance_rad2)
+            nats = math.log(of * len(halves)) - side.nats
+            found += [Case(name, nats, h, fix.pose, fix.variance_m2, fix, None) for h in lost]
+    return found

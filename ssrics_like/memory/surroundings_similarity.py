@@ -1,0 +1,165 @@
+"""Surroundings as a slot of declarative memory: how similar they are, from either side."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssrics_like.memory.chunks import View
+from ssrics_like.memory.columns import SimilarityScale, SlotColumn
+from ssrics_like.memory.continuous import ViewColumn
+from ssrics_like.memory.sides import Side, Sides
+from ssrics_like.memory.surroundings import (
+    ALIKE,
+    STRANGE,
+    BothSides,
+    Places,
+    both_sides,
+    by_direction,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ssrics_like.memory.chunks import Value
+
+KNOWN = 0.72
+"""Where so many directions agree it is as similar as can be."""
+NEITHER = 0.5
+"""As similar a place is, of all between different and the same, of which too little is known."""
+MISTAKEN = 0.01
+"""Share of places of which the wrong side is taken for the one that they are seen from."""
+
+
+class SurroundingsSimilarity:
+    """Similarity of the surroundings of two places, from either side.
+
+    Parameters
+    ----------
+    difference : float
+        Similarity where no more directions agree than by chance.
+    vista_difference : float
+        By how much it is less where what is seen in the distance contradicts.
+    equal : float
+        Similarity where as many directions agree as in one place met twice.
+    """
+
+    def __init__(self, difference: float, vista_difference: float, equal: float = 0.0) -> None:
+        self._difference = difference
+        self._vista_difference = vista_difference
+        self._equal = equal
+
+    def column(self, slot: str, scale: SimilarityScale) -> SlotColumn:
+        """Make an empty column for the slot of that name."""
+        own = SurroundingsSimilarity(self._difference, self._vista_difference, scale.equal)
+        return SurroundingsColumn(slot, scale._replace(different=self._difference), own)
+
+    def of(self, sides: BothSides) -> NDArray[np.float64]:
+        """``different + (equal - different) * u + vista_difference * v``, for each side.
+
+        u is 0 where half of the directions agree or fewer, 1 where 72 % do or more. v is what
+        `vistas.contradiction` says.
+
+        Returns
+        -------
+        ndarray, shape (2, n)
+            NaN where too little can be compared.
+        """
+        u = np.clip((sides.agreeing - STRANGE) / (KNOWN - STRANGE), 0.0, 1.0)
+        return self._between(u) + self._vista_difference * sides.apart
+
+    @property
+    def neither(self) -> float:
+        """Similarity where too little can be compared."""
+        return float(self._between(np.array(NEITHER)))
+
+    def _between(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(self._difference + (self._equal - self._difference) * u)
+
+    def sides(self, view: NDArray[np.float32], places: NDArray[np.float32]) -> list[Sides]:
+        """Tell from which side each place would be seen, and how turned, if it is that place.
+
+        Parameters
+        ----------
+        view : ndarray, shape (3 directions,)
+            What is seen.
+        places : ndarray, shape (n, 3 directions)
+            What is remembered.
+        """
+        both = both_sides(view, by_direction(places))
+        similarity = self.of(both)
+        similarity[np.isnan(similarity)] = self.neither
+        less = similarity - similarity.max(axis=0)
+        nats = np.log(MISTAKEN + (1.0 - MISTAKEN) * np.exp(less))
+        turns = np.where(both.agreeing >= ALIKE, both.turned_rad, np.nan)
+        return [
+            Sides(
+                *(
+                    Side(n, None if math.isnan(turn) else turn)
+                    for n, turn in zip(*each, strict=True)
+                )
+            )
+            for each in zip(nats.T.tolist(), turns.T.tolist(), strict=True)
+        ]
+
+
+class SurroundingsColumn(ViewColumn):
+    """Surroundings of many places: lengths all around, what is unknown of them, and vistas.
+
+    Parameters
+    ----------
+    slot, scale : as for `ViewColumn`
+    compared : SurroundingsSimilarity
+        How similar two are.
+    """
+
+    def __init__(self, slot: str, scale: SimilarityScale, compared: SurroundingsSimilarity) -> None:
+        super().__init__(slot, scale)
+        self._compared = compared
+        self._turned: Places | None = None
+        self._row_of: dict[str, int] = {}
+
+    def append(self, value: Value | None) -> None:
+        """Add the view of the next chunk; None if it lacks the slot."""
+        if isinstance(value, View):
+            self._row_of[value.name] = len(self._views)
+        super().append(value)
+        self._turned = None
+
+    def replace(self, row: int, value: Value) -> None:
+        """Store another view for a chunk that has one."""
+        super().replace(row, value)
+        if isinstance(value, View):
+            self._row_of[value.name] = row
+        if self._turned is not None and self._rows is not None:  # the others stay as they are
+            one = by_direction(self._rows.used[row : row + 1])
+            for rows, new in zip(self._turned, one, strict=True):
+                rows[:, row] = new[:, 0]
+
+    def _row(self, view: View) -> NDArray[np.float32]:
+        return view.descriptor
+
+    def similarity(self, requested: Value) -> NDArray[np.float64]:
+        """Similarity of each view to the requested one, from the side that suits best, shape (n,).
+
+        Where something is seen now where a view was taken, that counts if it is more similar: the
+        place is perceived astray then.
+        """
+        self.check(requested)
+        assert isinstance(requested, View)
+        if self._rows is None:
+            return np.full(len(self._views), self._scale.different)
+        if self._turned is None:
+            self._turned = by_direction(self._rows.used)
+        similarity = self._best(requested.descriptor, self._turned)
+        for name, seen in requested.there.items():
+            if (row := self._row_of.get(name)) is not None:
+                again = self._best(seen, by_direction(self._rows.used[row : row + 1]))
+                similarity[row] = np.fmax(similarity[row], again[0])
+        similarity[np.isnan(similarity)] = self._compared.neither
+        return similarity
+
+    def _best(self, view: NDArray[np.float32], places: Places) -> NDArray[np.float64]:
+        return np.asarray(np.fmax(*self._compared.of(both_sides(view, places))))
