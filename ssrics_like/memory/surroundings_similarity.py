@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -93,16 +92,12 @@ class SurroundingsSimilarity:
         similarity[np.isnan(similarity)] = self.neither
         less = similarity - similarity.max(axis=0)
         nats = np.log(MISTAKEN + (1.0 - MISTAKEN) * np.exp(less))
-        turns = np.where(both.agreeing >= ALIKE, both.turned_rad, np.nan)
-        return [
-            Sides(
-                *(
-                    Side(n, None if math.isnan(turn) else turn)
-                    for n, turn in zip(*each, strict=True)
-                )
-            )
-            for each in zip(nats.T.tolist(), turns.T.tolist(), strict=True)
-        ]
+        known = both.agreeing >= ALIKE
+        ahead, behind = (
+            [Side(n, turn if told else None) for n, turn, told in zip(*of, strict=True)]
+            for of in zip(nats.tolist(), both.turned_rad.tolist(), known.tolist(), strict=True)
+        )
+        return list(map(Sides, ahead, behind))
 
 
 class SurroundingsColumn(ViewColumn):

@@ -93,7 +93,11 @@ def serve(app: FastAPI, listening: socket.socket) -> None:
         timeout_graceful_shutdown=2, lifespan="off", proxy_headers=True,
     )  # fmt: skip
     logging.getLogger("uvicorn.error").addFilter(_is_bug)
-    uvicorn.Server(config).run(sockets=[listening])
+    serving = uvicorn.Server(config).serve(sockets=[listening])
+    try:
+        asyncio.run(serving)
+    finally:
+        serving.close()  # an interrupt may come before it has begun
 
 
 def _is_bug(record: logging.LogRecord) -> bool:
