@@ -64,9 +64,9 @@ def test_without_a_view_there_is_no_salience_and_others_are_not_compared_with_it
 @pytest.mark.parametrize(
     ("changes", "nats"),
     [
-        ({"mismatch_penalty": None}, -6.0),  # no partial matching: as if the penalty were 1
-        ({"mismatch_penalty": 0.5}, -3.0),
-        ({"max_similarity": 2.0}, -8.0),  # the same is always the logarithm 0
+        ({"mismatch_penalty": None}, -7.0),  # no partial matching: as if the penalty were 1
+        ({"mismatch_penalty": 0.5}, -3.5),
+        ({"max_similarity": 2.0}, -9.0),  # the same is always the logarithm 0
         ({"mismatch_penalty": -1.0}, 0.0),  # nothing does better than the same
     ],
 )
