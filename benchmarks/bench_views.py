@@ -23,7 +23,7 @@ from ssrics_like.bench.conditions import NOMINAL
 from ssrics_like.bench.drives import BenchDrive, OnPlan, Simulated, make_drive
 from ssrics_like.cues import read_cue
 from ssrics_like.library import find_cue
-from ssrics_like.memory.surroundings import agreement, both_sides, by_direction
+from ssrics_like.memory.surroundings import SIDES, agreement, both_sides, by_direction
 from ssrics_like.perception import PerceptionBuffer
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.scenarios.modules import load_perception
@@ -33,8 +33,6 @@ SAME_M, OTHER_M = 0.7, 1.2
 SAME_RAD, BACK_RAD = 0.6, 2.5
 ALIKE = 0.7
 """Share of directions in which what surrounds two places that are alike agrees."""
-SIDES = 0.05
-"""A place of which the two sides agree to so much looks the same from both."""
 VIEWS = ("surroundings", "scan", "vista")
 PAIRS = ("the same, the same way", "the same, the other way", "different")
 

@@ -148,19 +148,22 @@ def test_confidence_is_the_share_of_the_odds():
     )  # fmt: skip
     decisions = tour(model, [(0.5 * (i % 5), 0, 0, i % 2) for i in range(24)])
     assert {d.decision for d in decisions} == {"declared", "recognised", "unsure"}
-    before = None
+    looks = []
     for decision, retrieval in zip(decisions, asked, strict=True):
         odds = {row.name: math.exp(row.total - row.noise) for row in retrieval.candidates.rows()}
         recalled = retrieval.chunk
         mine = math.exp(-3.0) if recalled is None else odds[recalled.name]
         share = mine / (math.exp(-3.0) + sum(odds.values()))
         found = retrieval.candidates
-        in_doubt = retrieval.share_of(found.by_context, found.threshold_by_context)
-        expected = [pytest.approx(share), pytest.approx(in_doubt)]
-        # A robot in doubt that turns in one place takes the mean of its looks: test_expecting.
-        again = before is not None and decision.pose.distance_m(before) < 1.0
-        assert again or decision.confidence in expected
-        before = decision.pose
+        now = dict(zip(found.names, found.by_context, strict=True))
+        looks.append(now)
+        # A robot in doubt that stays in one place takes the mean of its looks there.
+        means = [
+            np.array([np.mean([look.get(name, now[name]) for look in looks[i:]]) for name in now])
+            for i in range(len(looks))
+        ]
+        in_doubt = [retrieval.share_of(mean, found.threshold_by_context) for mean in means]
+        assert decision.confidence in [pytest.approx(each) for each in (share, *in_doubt)]
         sure = decision.confidence > (0.7 if recalled is None else 0.8)
         kind = "declared" if recalled is None else "recognised"
         assert decision.decision == (kind if sure else "unsure")

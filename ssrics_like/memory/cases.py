@@ -90,10 +90,10 @@ def cases_near(
         for hypothesis in hypotheses if hypothesis.landmark is not None
         for case in _by_place(hypothesis, around(hypothesis.landmark), here, sd)
     ]  # fmt: skip
-    if not here.directed:
-        return found
-    seen = sides_of(dict.fromkeys(case.landmark for case in found))
-    return [_by_direction(case, here, sd, seen.get(case.landmark, EITHER)) for case in found]
+    if here.directed:
+        seen = sides_of(dict.fromkeys(case.landmark for case in found))
+        found = [_by_direction(case, here, sd, seen.get(case.landmark, EITHER)) for case in found]
+    return [case._replace(link=_link(case, sd.since(case.before, here))) for case in found]
 
 
 def _by_place(
@@ -122,18 +122,17 @@ def _by_place(
             gain * sd.place_m**2,
             expected.variance_rad2 + drift.variance_rad2,
         )
-        yield _measured(Case(name, nats, hypothesis, expected.pose, known_m2, fix, None), drift)
+        yield Case(name, nats, hypothesis, expected.pose, known_m2, fix, None)
 
 
-def _measured(case: Case, drift: Link) -> Case:
-    """Return the same with where the landmark lies from the one before, as it was perceived now."""
+def _link(case: Case, drift: Link) -> Link:
+    """Return where the landmark lies, seen from the one before, as it was perceived now."""
     before, fix = case.before.fix, case.fix
-    link = Link(
+    return Link(
         fix.pose.seen_from(before.pose),
         max(before.variance_m2 + drift.variance_m2, fix.variance_m2),
         min(before.variance_rad2 + drift.variance_rad2, fix.variance_rad2),
     ).bounded
-    return case._replace(link=link)
 
 
 def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
@@ -155,8 +154,7 @@ def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
     fix = Link(
         Pose(pose.x_m, pose.y_m, theta_rad), case.fix.variance_m2, gain * sd.direction_rad**2
     )
-    drift = sd.since(case.before, here)
-    return _measured(case._replace(nats=nats, fix=fix), drift)
+    return case._replace(nats=nats, fix=fix)
 
 
 def _reverse(turn_rad: float, variance_rad2: float) -> float:
