@@ -1,8 +1,8 @@
 """What is never confirmed fades by decay; what lasts gains permanence.
 
-With the shipped profile and rules. A doorway that looks another (-7) and is perceived astray by two
-and a half standard deviations (-3) must have a base level of -3 to be recalled at the threshold of
--13: seen once, it has that for e^6 s, 7 minutes, since B = -d ln t.
+With the shipped profile and rules. A doorway that looks another (-7) and is perceived astray, so far
+as counts for exp(-2.75), must have a base level of -3.25 to be recalled at the threshold of -13: seen
+once, it has that for e^6.5 s, 11 minutes, since B = -d ln t.
 """
 
 import math
@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from ssrics_like.library import find
+from ssrics_like.memory.measurement import ASTRAY, ASTRAY_M
 from ssrics_like.modules import LandmarkModules
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.poses import Pose
@@ -62,8 +63,8 @@ class Mind:
         return np.repeat([length_m, 0.0, vista_m], 36).astype(np.float32)
 
     def strangely(self, landmark, t_s):
-        """Meet a doorway that looks another, 2.45 standard deviations astray."""
-        astray_m = math.sqrt(2 * 3) * PROFILE.place_sigma_m
+        """Meet a doorway that looks another, as far astray as counts for exp(-2.75)."""
+        astray_m = ASTRAY_M * math.sqrt(2 * (2.75 + math.log(ASTRAY)))
         return self.meet(landmark, t_s, astray_m, STRANGE_M)
 
 

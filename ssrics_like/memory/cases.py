@@ -9,18 +9,13 @@ import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-import numpy as np
-
 from ssrics_like.memory.expectation import FAR, Uncertainty
 from ssrics_like.memory.hypotheses import Here, Hypothesis
 from ssrics_like.memory.links import Link
+from ssrics_like.memory.measurement import ASTRAY_M, measured_direction, measured_place
 from ssrics_like.memory.sides import EITHER, Sides, SidesOf
 from ssrics_like.poses import Pose
 
-TURN_CAP = 3.0
-"""A direction, however wrong, counts no more than this: now and then one is mismeasured."""
-ASTRAY, ASTRAY_M = 0.05, 0.4
-"""So often a landmark is perceived astray, and how far then (standard deviation)."""
 TURNED_RAD = 0.1
 """How well a robot that may be anywhere knows by what it sees how it is turned (standard
 deviation)."""
@@ -47,6 +42,8 @@ class Case(NamedTuple):
         The landmark's frame in that of path integration, now that it was perceived here.
     link : Link or None
         The landmark's frame in that of the one before; None if that is not known.
+    turned_rad : float
+        By how much the frame of the one before is turned against what was believed.
     """
 
     landmark: str
@@ -56,6 +53,7 @@ class Case(NamedTuple):
     known_m2: float
     fix: Link
     link: Link | None
+    turned_rad: float = 0.0
 
 
 def cases_near(
@@ -100,36 +98,27 @@ def _by_place(
     hypothesis: Hypothesis, around: Mapping[str, Link], here: Here, sd: Uncertainty
 ) -> Iterator[Case]:
     """Yield what there may be by its place alone."""
-    drift = sd.since(hypothesis, here)
+    before, drift = hypothesis.fix, sd.since(hypothesis, here)
     # Seen from the landmark before; most lie far from there, and are done with quickly.
-    seen = here.place.seen_from(hypothesis.fix.pose)
+    seen = here.place.seen_from(before.pose)
     for name, link in around.items():
-        known_m2 = hypothesis.fix.variance_m2_after(link) + drift.variance_m2
+        known_m2 = before.variance_m2_after(link) + drift.variance_m2
         off_m2 = (seen.x_m - link.pose.x_m) ** 2 + (seen.y_m - link.pose.y_m) ** 2
         if off_m2 > 2.0 * FAR * (known_m2 + max(ASTRAY_M, sd.place_m) ** 2):
             continue
-        nats = _nats_of_place(off_m2, known_m2, sd.place_m**2)
-        if nats > FAR:
-            continue
-        expected = hypothesis.fix.and_then(link)
-        gain = known_m2 / (known_m2 + sd.place_m**2)
-        fix = Link(
-            Pose(
-                expected.pose.x_m + gain * (here.place.x_m - expected.pose.x_m),
-                expected.pose.y_m + gain * (here.place.y_m - expected.pose.y_m),
-                expected.pose.theta_rad,
-            ),
-            gain * sd.place_m**2,
-            expected.variance_rad2 + drift.variance_rad2,
-        )
-        yield Case(name, nats, hypothesis, expected.pose, known_m2, fix, None)
+        nats, fix, turned_rad = measured_place(before, link, drift, here.place, sd.place_m)
+        if nats < FAR:
+            expected = before.pose.onward(link.pose)
+            yield Case(name, nats, hypothesis, expected, known_m2, fix, link, turned_rad)
 
 
 def _link(case: Case, drift: Link) -> Link:
     """Return where the landmark lies, seen from the one before, as it was perceived now."""
     before, fix = case.before.fix, case.fix
+    at = before.pose
+    turned = Pose(at.x_m, at.y_m, at.theta_rad + case.turned_rad)
     return Link(
-        fix.pose.seen_from(before.pose),
+        fix.pose.seen_from(turned),
         max(before.variance_m2 + drift.variance_m2, fix.variance_m2),
         min(before.variance_rad2 + drift.variance_rad2, fix.variance_rad2),
     ).bounded
@@ -140,21 +129,22 @@ def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
 
     From the other side a doorway is the same, half a turn off.
     """
-    expected_rad, known_rad2 = case.fix.pose.theta_rad, case.fix.variance_rad2
-    ahead_rad = here.place.theta_rad - expected_rad
-    variance_rad2 = known_rad2 + sd.direction_rad**2
-    reverse = _reverse(ahead_rad, variance_rad2)
+    ahead_rad = here.place.theta_rad - case.fix.pose.theta_rad
+    reverse = _reverse(ahead_rad, case.fix.variance_rad2 + sd.direction_rad**2)
     sides = (1.0 - reverse) * math.exp(seen.ahead.nats), reverse * math.exp(seen.behind.nats)
     side = seen.ahead if sides[0] >= sides[1] else seen.behind
     turn_rad = math.remainder(ahead_rad - (side.turn_rad or 0.0), math.pi)
-    nats = case.nats + min(0.5 * turn_rad**2 / variance_rad2, TURN_CAP) - math.log(sum(sides))
-    gain = known_rad2 / variance_rad2
-    pose = case.fix.pose
-    theta_rad = math.remainder(expected_rad + gain * turn_rad, math.tau)
-    fix = Link(
-        Pose(pose.x_m, pose.y_m, theta_rad), case.fix.variance_m2, gain * sd.direction_rad**2
-    )
-    return case._replace(nats=nats, fix=fix)
+    sd_rad = sd.direction_rad if side.turn_rad is None else TURNED_RAD
+    known_rad2 = case.fix.variance_rad2
+    nats, fix, turned_rad = measured_direction(case.fix, turn_rad, sd_rad)
+    # Some of that is due to the way between, and has not turned the frame of the one before.
+    between_rad2 = case.link.variance_rad2 if case.link else 0.0
+    between_rad2 += sd.since(case.before, here).variance_rad2
+    share = 1.0 - between_rad2 / known_rad2 if known_rad2 > 0.0 else 0.0
+    return case._replace(
+        nats=case.nats + nats - math.log(sum(sides)), fix=fix,
+        turned_rad=case.turned_rad + share * turned_rad,
+    )  # fmt: skip
 
 
 def _reverse(turn_rad: float, variance_rad2: float) -> float:
@@ -164,20 +154,6 @@ def _reverse(turn_rad: float, variance_rad2: float) -> float:
         for turn in (turn_rad, turn_rad + math.pi)
     )
     return 1.0 / (1.0 + math.exp(min(behind - ahead, 700.0)))
-
-
-def _nats_of_place(off_m2: float, known_m2: float, place_m2: float) -> float:
-    """Return minus the logarithm of a density, of a place known for certain and hit being 1."""
-
-    def nats(variance_m2: float) -> float:
-        return 0.5 * off_m2 / variance_m2 + math.log(variance_m2 / place_m2)
-
-    return -float(
-        np.logaddexp(
-            math.log(1.0 - ASTRAY) - nats(known_m2 + place_m2),
-            math.log(ASTRAY) - nats(known_m2 + max(ASTRAY_M**2, place_m2)),
-        )
-    )
 
 
 def cases_anywhere(

@@ -61,7 +61,7 @@ class MemoryProfile(MemoryParameters):
     view_difference: Annotated[float, Field(le=0)] = -2.0
     surroundings_difference: Annotated[float, Field(le=0)] = -7.0
     vista_difference: Annotated[float, Field(le=0)] = -4.5
-    place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 0.15
+    place_sigma_m: Annotated[float, Field(ge=1e-3, le=1e6)] = 0.1
     direction_sigma_rad: Annotated[float, Field(ge=1e-3, le=1e3)] = 0.25
     place_drift: Annotated[float, Field(ge=0, le=1e3)] = 0.01
     swerve_drift_rad: Annotated[float, Field(ge=0, le=10)] = 0.001

@@ -22,9 +22,9 @@ from ssrics_like.poses import Pose
 ELSEWHERE = 0.05
 """Weight of the hypothesis that the robot may be anywhere, beside that of a landmark that begins a
 new part of the graph, or of being where it is said to begin."""
-SURE = 0.95
-"""So sure a robot that was lost must be of a landmark until its whereabouts are proven: buildings
-have rows of doorways that look alike."""
+SURE = (0.99, 0.98, 0.93)
+"""So sure a robot that was lost must be of a landmark until its whereabouts are proven, if it is
+the first that fits, the second, or a later one: buildings have rows of doorways that look alike."""
 PROOF = 6.0
 """Nothing else fits if it is so much less probable (logarithm)."""
 ENOUGH = 3
@@ -165,7 +165,7 @@ class Whereabouts:
             return known or self._doubts >= GIVEN_UP
         case = self._likeliest(landmark)
         met = likeliest.met if case is None else self._met(case)
-        return met >= PROVEN or (met > 0 and share >= SURE)
+        return met >= PROVEN or (met > 0 and share >= SURE[min(met, len(SURE)) - 1])
 
     def expect(
         self, here: Here, landmarks: Collection[str], sides_of: SidesOf = unseen
