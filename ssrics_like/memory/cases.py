@@ -17,8 +17,8 @@ from ssrics_like.memory.sides import EITHER, Sides, SidesOf
 from ssrics_like.poses import Pose
 
 TURNED_RAD = 0.1
-"""How well a robot that may be anywhere knows by what it sees how it is turned (standard
-deviation)."""
+"""How exactly a view tells how the robot is turned (standard deviation); the jambs alone tell it
+less exactly, by `Uncertainty.direction_rad`."""
 UNDIRECTED_RAD2 = 10.0
 """Variance of a direction of which nothing is known."""
 

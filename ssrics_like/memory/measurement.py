@@ -61,10 +61,8 @@ def measured_place(
         How exactly landmarks are perceived (standard deviation).
     """
     start, seen = before.pose, place.seen_from(before.pose)
-    expected_m, seen_m = (
-        math.hypot(onward.pose.x_m, onward.pose.y_m),
-        math.hypot(seen.x_m, seen.y_m),
-    )
+    expected_m = math.hypot(onward.pose.x_m, onward.pose.y_m)
+    seen_m = math.hypot(seen.x_m, seen.y_m)
     bearing_rad = math.atan2(onward.pose.y_m, onward.pose.x_m)
     aside_rad = math.remainder(math.atan2(seen.y_m, seen.x_m) - bearing_rad, math.tau)
     # How much too far it is, and the chord by which it is aside: by the law of cosines their
