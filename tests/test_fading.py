@@ -2,7 +2,8 @@
 
 With the shipped profile and rules. A doorway that looks another (-7) and is perceived astray, so far
 as counts for exp(-2.75), must have a base level of -3.25 to be recalled at the threshold of -13: seen
-once, it has that for e^6.5 s, 11 minutes, since B = -d ln t.
+once, it has that for e^6.5 s, 11 minutes, since B = -d ln t: longer than the ten minutes for which the
+others are met.
 """
 
 import math

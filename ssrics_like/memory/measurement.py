@@ -32,7 +32,8 @@ class Measured(NamedTuple):
         Minus the logarithm of how probable it was to perceive it so: 0 for one that was known for
         certain and hit.
     fix : Link
-        The frame, in that of path integration; its variances are those that are left.
+        The frame, in that of path integration; its variances are those that are left, of a hit and
+        of an outlier on average.
     turned_rad : float
         By how much it is turned against what was expected.
     """
@@ -92,7 +93,7 @@ def measured_place(
             start.y_m + length_m * math.sin(direction_rad),
             math.remainder(start.theta_rad + onward.pose.theta_rad + turned_rad, math.tau),
         ),
-        max((1.0 - along) * along_m2, (1.0 - across) * across_m2),
+        (1.0 - across) * across_m2,  # the greater of both
         (1.0 - turning) * before.variance_rad2 + onward.variance_rad2 + drift.variance_rad2,
     )
     return Measured(improbable, fix, turned_rad)
