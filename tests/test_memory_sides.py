@@ -6,8 +6,8 @@ import pytest
 
 from ssrics_like.memory import Here, Uncertainty, Whereabouts
 from ssrics_like.memory.cases import TURNED_RAD, UNDIRECTED_RAD2, cases_anywhere, cases_near
-from ssrics_like.memory.hypotheses import ANYWHERE
-from ssrics_like.memory.links import Links
+from ssrics_like.memory.hypotheses import ANYWHERE, Hypothesis
+from ssrics_like.memory.links import Link, Links
 from ssrics_like.memory.sides import EITHER, Side, Sides, unseen
 from ssrics_like.poses import Pose
 
@@ -60,6 +60,21 @@ def test_how_what_is_seen_is_turned_is_taken_off_the_direction_perceived(theta_r
     assert case.fix.pose.theta_rad == pytest.approx(0.0, abs=1e-9)
     straight = Sides(Side(0.0, 0.0), Side(0.0, 0.0))
     assert case.nats == pytest.approx(near(straight, theta_rad - 0.1).nats, abs=1e-9)
+
+
+@pytest.mark.parametrize("turn_rad", [0.0, 0.1, -0.15])
+def test_a_frame_that_was_believed_to_be_turned_otherwise_changes_no_link(turn_rad):
+    """Both place and direction say that the frame is turned, so the way between is as it was."""
+    at = Here(Pose(0.0, 0.0, 0.0), True, 0.0, 0.0)
+    before = Hypothesis("L1", Link(at.place, 0.0, 0.2**2), at, 0.0)
+    link = Link(Pose(5.0, 1.0, 0.4), 0.02**2, 0.005**2)
+    seen = Pose(0.0, 0.0, turn_rad).onward(link.pose)
+    (case,) = cases_near(
+        [before], lambda _: {"L2": link}, Here(seen, True, 5.0, 0.0), SD, lambda _: {}
+    )
+    assert case.turned_rad == pytest.approx(turn_rad, abs=0.01)
+    assert case.link.pose.distance_m(link.pose) < 0.02
+    assert case.link.pose.theta_rad == pytest.approx(0.4, abs=0.005)
 
 
 def test_a_robot_that_may_be_anywhere_came_from_the_side_that_fits():

@@ -13,7 +13,7 @@ from ssrics_like.memory.expectation import FAR, Uncertainty
 from ssrics_like.memory.hypotheses import Here, Hypothesis
 from ssrics_like.memory.links import Link
 from ssrics_like.memory.measurement import ASTRAY_M, measured_direction, measured_place
-from ssrics_like.memory.sides import EITHER, Sides, SidesOf
+from ssrics_like.memory.sides import EITHER, Side, Sides, SidesOf
 from ssrics_like.poses import Pose
 
 TURNED_RAD = 0.1
@@ -88,10 +88,14 @@ def cases_near(
         for hypothesis in hypotheses if hypothesis.landmark is not None
         for case in _by_place(hypothesis, around(hypothesis.landmark), here, sd)
     ]  # fmt: skip
-    if here.directed:
-        seen = sides_of(dict.fromkeys(case.landmark for case in found))
-        found = [_by_direction(case, here, sd, seen.get(case.landmark, EITHER)) for case in found]
-    return [case._replace(link=_link(case, sd.since(case.before, here))) for case in found]
+    seen = sides_of(dict.fromkeys(case.landmark for case in found)) if here.directed else {}
+    cases = []
+    for case in found:
+        drift = sd.since(case.before, here)
+        sides = seen.get(case.landmark, EITHER)
+        told = _by_direction(case, here, sd, sides, drift) if here.directed else case
+        cases.append(told._replace(link=_link(told, drift)))
+    return cases
 
 
 def _by_place(
@@ -124,7 +128,7 @@ def _link(case: Case, drift: Link) -> Link:
     ).bounded
 
 
-def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
+def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides, drift: Link) -> Case:
     """Return the same, given its direction and from which side it looks like what is seen.
 
     From the other side a doorway is the same, half a turn off.
@@ -134,17 +138,23 @@ def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
     sides = (1.0 - reverse) * math.exp(seen.ahead.nats), reverse * math.exp(seen.behind.nats)
     side = seen.ahead if sides[0] >= sides[1] else seen.behind
     turn_rad = math.remainder(ahead_rad - (side.turn_rad or 0.0), math.pi)
-    sd_rad = sd.direction_rad if side.turn_rad is None else TURNED_RAD
+    sd_rad = _told_rad(side, sd)
     known_rad2 = case.fix.variance_rad2
     nats, fix, turned_rad = measured_direction(case.fix, turn_rad, sd_rad)
     # Some of that is due to the way between, and has not turned the frame of the one before.
-    between_rad2 = case.link.variance_rad2 if case.link else 0.0
-    between_rad2 += sd.since(case.before, here).variance_rad2
+    assert case.link is not None  # as it is expected, until `_link`
+    between_rad2 = case.link.variance_rad2 + drift.variance_rad2
     share = 1.0 - between_rad2 / known_rad2 if known_rad2 > 0.0 else 0.0
     return case._replace(
         nats=case.nats + nats - math.log(sum(sides)), fix=fix,
         turned_rad=case.turned_rad + share * turned_rad,
     )  # fmt: skip
+
+
+def _told_rad(side: Side, sd: Uncertainty) -> float:
+    """Return how exactly a direction is perceived from a side (standard deviation)."""
+    by_jambs = sd.direction_rad
+    return by_jambs if side.turn_rad is None else min(TURNED_RAD, by_jambs)
 
 
 def _reverse(turn_rad: float, variance_rad2: float) -> float:
@@ -186,7 +196,7 @@ def cases_anywhere(
     for name in landmarks:
         for half_rad, side in zip(halves, seen.get(name, EITHER), strict=False):
             turned_rad = math.remainder(theta_rad + half_rad - (side.turn_rad or 0.0), math.tau)
-            sd_rad = sd.direction_rad if side.turn_rad is None else TURNED_RAD
+            sd_rad = _told_rad(side, sd)
             variance_rad2 = sd_rad**2 if here.directed else UNDIRECTED_RAD2
             fix = Link(Pose(x_m, y_m, turned_rad), sd.place_m**2, variance_rad2)
             nats = math.log(of * len(halves)) - side.nats

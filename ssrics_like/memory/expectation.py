@@ -20,7 +20,8 @@ class Uncertainty:
     Attributes
     ----------
     place_m, direction_rad : float
-        Of where a landmark is perceived from one visit to the next, and in which direction.
+        Of where a landmark is perceived from one visit to the next, and in which direction, by its
+        jambs alone.
     drift : float
         Of position, per square root of the metres of path.
     swerve_rad, turn_rad : float

@@ -35,7 +35,8 @@ class MemoryProfile(MemoryParameters):
         How much less that is where what is seen in the distance contradicts.
     place_sigma_m, direction_sigma_rad : float
         Standard deviations, metres and radians, of where a landmark is perceived from one visit to
-        the next, and of the direction of a doorway.
+        the next, and of the direction of a doorway, where its view does not tell how the robot is
+        turned.
     place_drift : float
         Standard deviation of path integration after one metre, metres; it grows with the square
         root of the way.
