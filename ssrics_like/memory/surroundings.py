@@ -10,8 +10,6 @@ import numpy as np
 from ssrics_like.memory.vistas import contradiction, gathered
 
 if TYPE_CHECKING:
-    from typing import Any
-
     from numpy.typing import NDArray
 
 UNKNOWN_M = 1.0
@@ -77,7 +75,7 @@ class BothSides(NamedTuple):
     turned_rad: NDArray[np.float64]
 
 
-def both_sides(view: NDArray[np.float32], places: Places) -> BothSides:
+def both_sides(view: NDArray[np.float32], places: Places, *, exact: bool = True) -> BothSides:
     """Compare a view with places as they are remembered, and with their other sides.
 
     Parameters
@@ -86,18 +84,21 @@ def both_sides(view: NDArray[np.float32], places: Places) -> BothSides:
         Of one place.
     places : Places
         Others.
+    exact : bool, optional
+        Whether it is told of different places how far they agree; else only that it is no more
+        than `STRANGE`. That takes less time.
 
     Returns
     -------
     BothSides
     """
-    agreeing, turns = _agreement(view, places)
-    vista = view[2 * len(places.lengths) :]
+    agreeing, turns = _agreement(view, places, exact=exact)
+    directions = places.lengths.shape[1]
+    vista = view[2 * directions :]
     apart = np.zeros(agreeing.shape)
     for side, turned, found in zip(agreeing, turns, apart, strict=True):
         likely = np.flatnonzero(side > STRANGE)
-        found[likely] = contradiction(vista, turned[likely], places.vistas[:, likely])
-    directions = len(places.lengths)
+        found[likely] = contradiction(vista, turned[likely], places.vistas[likely].T)
     aside = turns - np.array([[0], [directions // 2]])
     return BothSides(agreeing, apart, aside * (2.0 * np.pi / directions))
 
@@ -147,44 +148,58 @@ def _from_the_other_side(view: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 class Places(NamedTuple):
-    """Surroundings of many places, by direction, shape (directions, places).
+    """Surroundings of many places, made ready to be compared direction by direction.
 
     Attributes
     ----------
-    lengths : ndarray of float32
-        Metres; infinite where unknown.
-    per_m : ndarray of float32
-        By how much a direction agrees less for each metre of difference.
-    known : ndarray of float32
-        1 for known, else 0.
-    vistas : ndarray of float32
+    lengths : ndarray of float32, shape (places, directions)
+        Metres; beyond all others where unknown.
+    levels : ndarray of uint8, shape (places, directions)
+        The same in whole steps.
+    vistas : ndarray of float32, shape (places, directions)
         Metres; 0 where nothing was seen.
     """
 
     lengths: NDArray[np.float32]
-    per_m: NDArray[np.float32]
-    known: NDArray[np.float32]
+    levels: NDArray[np.uint8]
     vistas: NDArray[np.float32]
+
+    def and_these(self, others: Places) -> Places:
+        """Return these places and others after them."""
+        return Places(
+            np.concatenate([self.lengths, others.lengths]),
+            np.concatenate([self.levels, others.levels]),
+            np.concatenate([self.vistas, others.vistas]),
+        )
+
+    def replace(self, row: int, one: Places) -> None:
+        """Put another place in a row."""
+        self.lengths[row] = one.lengths[0]
+        self.levels[row] = one.levels[0]
+        self.vistas[row] = one.vistas[0]
 
 
 def by_direction(places: NDArray[np.float32]) -> Places:
     """Make ready what is remembered of places, shape (n, 3 directions), to be compared."""
-    lengths, unknown, vistas = np.split(places.T, 3)
+    # Compiled code is loaded only where it is needed.
+    from ssrics_like.memory.surroundings_kernels import (  # noqa: PLC0415
+        HIDDEN_M,
+        LEVEL_M,
+        LEVELS,
+    )
+
+    lengths, unknown, vistas = np.split(places, 3, axis=1)
     known = unknown < UNKNOWN_M
+    levels = np.clip(lengths / np.float32(LEVEL_M), 0, LEVELS - 1)
     return Places(
-        np.ascontiguousarray(np.where(known, lengths, np.float32(np.inf))),
-        np.ascontiguousarray(_per_m(lengths)),
-        np.ascontiguousarray(known, np.float32),
-        np.ascontiguousarray(vistas),
+        np.where(known, lengths, np.float32(HIDDEN_M)),
+        np.where(known, levels, LEVELS).astype(np.uint8),
+        vistas.copy(),
     )
 
 
-def _per_m(lengths: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
-    return np.asarray(1.0 / np.maximum(SAME_M, SAME * lengths), np.float32)
-
-
 def _agreement(
-    view: NDArray[np.float32], places: Places
+    view: NDArray[np.float32], places: Places, *, exact: bool = True
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Compare a view with places as they are, and from their other sides.
 
@@ -196,20 +211,16 @@ def _agreement(
     # Compiled code is loaded only where it is needed.
     from ssrics_like.memory import surroundings_kernels  # noqa: PLC0415
 
-    directions = len(places.lengths)
+    n, directions = places.lengths.shape
     lengths = view[:directions].astype(np.float64)
     seen = view[directions : 2 * directions] < UNKNOWN_M
     looked = np.empty((len(AHEAD_M), directions))
     for ahead_m, out in zip(AHEAD_M, looked, strict=True):
         surroundings_kernels.looked_at_from(lengths, ahead_m, REACH_M, out)
-    best = np.empty((2, places.lengths.shape[1]))
-    turns = np.empty(best.shape, np.int64)
-    for half, (shares, turned) in enumerate(zip(best, turns, strict=True)):
-        asides = half * directions // 2 + np.array(sorted(range(-ASIDE, ASIDE + 1), key=abs))
-        views = np.array([np.roll(looked, turn, axis=1) for turn in asides], np.float32)
-        surroundings_kernels.best_agreements(
-            views, _per_m(views), np.array([np.roll(seen, turn) for turn in asides]),
-            *places[:3], NEARLY, FEWEST, shares, turned,
-        )  # fmt: skip
-        turned[:] = asides[turned]
+    best, turns = np.empty((2, n)), np.empty((2, n), np.int64)
+    asides = np.array(sorted(range(-ASIDE, ASIDE + 1), key=abs))
+    surroundings_kernels.best_agreements(
+        looked.astype(np.float32), seen, asides, places.lengths, places.levels,
+        SAME_M, SAME, NEARLY, FEWEST, STRANGE, exact, best, turns,
+    )  # fmt: skip
     return np.where(best < 0.0, np.nan, best), turns

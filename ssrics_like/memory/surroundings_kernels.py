@@ -1,4 +1,11 @@
-"""Compiled: how far the surroundings of one place agree with those of many others."""
+"""Compiled: how far the surroundings of one place agree with those of many others.
+
+Few places are alike, and most that are not can be told without an exact comparison: lengths are
+coded in steps, and a table bounds how far a direction agrees whose length is in some step. Eight
+such bounds make a word, a byte each, so that one sum of words bounds how far a place agrees with
+a view that is looked at from all points and both sides. Float32 rounds neither sums of bounds nor
+a smaller sum to more than a greater one: what a bound rules out, the exact comparison does, too.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +19,20 @@ from ssrics_like.compiling import compiled
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-BLOCK = 1024
-"""Places that are compared at once."""
+POINTS, SIDES, TURNS = 3, 2, 5
+"""A view is looked at from so many points, from so many sides, and turned in so many ways."""
+LANES = POINTS + 1
+"""Bytes for a side: a bound for each point, and how many directions are compared."""
+LEVEL_M, LEVELS = 0.0625, 96
+"""How long a step is, and in how many lengths are coded."""
+HIDDEN_M = 1e6
+"""Stands for a length that is unknown: it agrees with no other."""
+QUARTERS = 4
+"""Bounds are told in quarters of a direction: float32 adds those without rounding."""
+ROUNDING = 1e-5
+"""What a bound has to spare: more than float32 is wrong by in how far a direction agrees."""
+TOP = 128
+"""The top bit of a byte."""
 
 
 @compiled
@@ -60,68 +79,199 @@ def looked_at_from(
 @compiled
 def best_agreements(
     views: NDArray[np.float32],
-    views_per_m: NDArray[np.float32],
     seen: NDArray[np.bool_],
+    asides: NDArray[np.int64],
     lengths: NDArray[np.float32],
-    per_m: NDArray[np.float32],
-    known: NDArray[np.float32],
+    levels: NDArray[np.uint8],
+    same_m: float,
+    same: float,
     nearly: float,
-    fewest: float,
+    fewest: int,
+    strange: float,
+    exact: bool,
     out: NDArray[np.float64],
     turned: NDArray[np.int64],
 ) -> None:
-    """Compare each view of a place with all others, and keep the best for each.
+    """Compare the views of a place with others, from either side, and keep the best for each.
 
     Parameters
     ----------
-    views, views_per_m : ndarray, shape (turns, points, directions)
-        Lengths in metres; by how much a direction agrees less for each metre of difference.
-    seen : ndarray, shape (turns, directions)
+    views : ndarray, shape (POINTS, directions)
+        Lengths seen from each point, metres; of 63 directions at most.
+    seen : ndarray, shape (directions,)
         Which of them are known.
-    lengths, per_m, known : ndarray, shape (directions, places)
-        The same of other places; 1 for known, else 0. What is not known has an infinite length.
+    asides : ndarray, shape (TURNS,)
+        By how many directions they are turned, -2 to 2; of equally good ones the first counts.
+    lengths : ndarray, shape (places, directions)
+        The same of other places; `HIDDEN_M` where unknown.
+    levels : ndarray, shape (places, directions)
+        The same in whole steps, `LEVELS - 1` for all that is longer; `LEVELS` where unknown.
+    same_m, same : float
+        Two lengths that differ by the former, or by this share of the longer, differ by 1.
     nearly : float
-        A direction that differs by that much less than nothing agrees wholly, by 1 more not at all.
-    fewest : float
+        A direction that differs by that or less agrees wholly, by 1 more not at all.
+    fewest : int
         With fewer directions known of both, two are not compared.
-    out : ndarray, shape (places,)
+    strange, exact : float, bool
+        A share up to `strange` may be told too small, if it need not be `exact`.
+    out : ndarray, shape (SIDES, places)
         Takes the share of directions that agree; -1 where nothing could be compared.
-    turned : ndarray, shape (places,)
-        Takes the turn, an index, with which they do.
+    turned : ndarray, shape (SIDES, places)
+        Takes by how many directions the views are turned then.
     """
-    directions, places = lengths.shape
-    none, zero, one = np.float32(1.0 + nearly), np.float32(0.0), np.float32(1.0)
-    agreeing, compared = np.empty(BLOCK, np.float32), np.empty(BLOCK, np.float32)
-    best = np.empty(BLOCK, np.float32)
-    out[:] = -1.0
-    turned[:] = 0
-    for first in range(0, places, BLOCK):  # a block's sums stay in the nearest cache
-        block = min(BLOCK, places - first)
-        for turn in range(len(views)):
-            compared[:] = zero
-            best[:] = -one
+    places, directions = lengths.shape
+    neutral = math.ceil(QUARTERS * strange)
+    bounds = _bounds(views, seen, same_m, same, nearly, neutral)
+    # A sum begins so that in the end the top bit of a byte tells whether more may agree than in
+    # strange places, or whether enough is compared.
+    begin, top = np.empty(SIDES * LANES, np.uint8), np.empty(SIDES * LANES, np.uint8)
+    begin[:] = TOP - 1 - math.floor(QUARTERS * strange * directions)
+    begin[POINTS::LANES] = TOP - fewest
+    top[:] = TOP
+    top[POINTS::LANES] = 0
+    nothing, more = begin.view(np.uint64)[0], top.view(np.uint64)[0]
+    sums = np.empty(TURNS, np.uint64)
+    lanes = sums.view(np.uint8).reshape(TURNS, SIDES, LANES)
+    twice, twice_per_m = _twice_round(views, seen, same_m, same)
+    per_m = np.empty(directions, np.float32)
+    most = np.empty(TURNS * POINTS, np.float32)
+    none, least = np.float32(1.0 + nearly), np.float32(-1.0 if exact else strange)
+    for place in range(places):
+        sums[:] = nothing
+        for i in range(directions):
+            level = levels[place, i]
+            for turn in range(TURNS):
+                sums[turn] += bounds[level, i + turn]
+        told = np.uint64(0)
+        for turn in range(TURNS):
+            told |= sums[turn]
+        alike = exact or told & more != 0
+        if alike:
             for i in range(directions):
-                if seen[turn, i]:
-                    also = known[i, first : first + block]
-                    for k in range(block):
-                        compared[k] += also[k]
-            for point in range(views.shape[1]):
-                agreeing[:] = zero
-                for i in range(directions):
-                    if not seen[turn, i]:
-                        continue
-                    length, at_most = views[turn, point, i], views_per_m[turn, point, i]
-                    others, rates = (
-                        lengths[i, first : first + block],
-                        per_m[i, first : first + block],
+                per_m[i] = _per_m(lengths[place, i], same_m, same)
+        for side in range(SIDES):
+            enough = False
+            for turn in range(TURNS):
+                enough = enough or lanes[turn, side, POINTS] >= TOP
+            out[side, place] = 0.0 if enough else -1.0
+            turned[side, place] = side * (directions // SIDES)
+            if not (alike and enough):
+                continue
+            for rank in range(TURNS):
+                turn = TURNS // 2 - asides[rank]
+                compared = int(lanes[turn, side, POINTS]) - int(begin[POINTS])
+                unknown = neutral * (directions - compared)
+                for point in range(POINTS):
+                    quarters = int(lanes[turn, side, point]) - int(begin[0]) - unknown
+                    most[rank * POINTS + point] = (
+                        np.float32(quarters) / np.float32(QUARTERS * compared)
+                        if compared >= fewest
+                        else np.float32(-1.0)
                     )
-                    for k in range(block):  # innermost, so that it is done for several at once
-                        less = abs(length - others[k]) * min(at_most, rates[k])
-                        agreeing[k] += min(one, max(zero, none - less))
-                for k in range(block):
-                    if compared[k] >= fewest:
-                        best[k] = max(best[k], agreeing[k] / compared[k])
-            for k in range(block):
-                if best[k] > out[first + k]:
-                    out[first + k] = best[k]
-                    turned[first + k] = turn
+            best, at = np.float32(0.0), len(most)
+            while True:  # what may agree most comes first: seldom anything else is left then
+                one = int(np.argmax(most))
+                if most[one] < best or most[one] <= least:
+                    break
+                rank, point = divmod(one, POINTS)
+                turn = asides[rank] + side * (directions // SIDES)
+                compared = int(lanes[TURNS // 2 - asides[rank], side, POINTS]) - int(begin[POINTS])
+                share = _agreeing(
+                    twice[point], twice_per_m[point], (-turn) % directions,
+                    lengths[place], per_m, none,
+                ) / np.float32(compared)  # fmt: skip
+                most[one] = np.float32(-1.0)
+                if share > best or (share == best and one < at):
+                    best, at = share, one
+                    out[side, place], turned[side, place] = share, turn
+
+
+@compiled
+def _agreeing(
+    view: NDArray[np.float32],
+    view_per_m: NDArray[np.float32],
+    first: int,
+    lengths: NDArray[np.float32],
+    per_m: NDArray[np.float32],
+    none: np.float32,
+) -> np.float32:
+    """Return in how many directions a view agrees with a place, if its first one is `first`."""
+    zero, one = np.float32(0.0), np.float32(1.0)
+    agreeing = zero
+    for i in range(len(lengths)):
+        less = abs(view[first + i] - lengths[i]) * min(view_per_m[first + i], per_m[i])
+        agreeing += min(one, max(zero, none - less))
+    return agreeing
+
+
+@compiled
+def _per_m(length: np.float32, same_m: float, same: float) -> np.float32:
+    """Return by how much a direction of that length agrees less for each metre of difference."""
+    return np.float32(1.0) / max(np.float32(same_m), np.float32(same) * length)
+
+
+@compiled
+def _twice_round(
+    views: NDArray[np.float32], seen: NDArray[np.bool_], same_m: float, same: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return views twice round, so that they can be turned, and `_per_m` of them.
+
+    What is not seen is as long as what is unknown of places, but negative: they do not agree.
+    """
+    points, directions = views.shape
+    lengths = np.empty((points, 2 * directions), np.float32)
+    per_m = np.empty_like(lengths)
+    for point in range(points):
+        for i in range(2 * directions):
+            j = i % directions
+            lengths[point, i] = views[point, j] if seen[j] else np.float32(-HIDDEN_M)
+            per_m[point, i] = _per_m(views[point, j], same_m, same)
+    return lengths, per_m
+
+
+@compiled
+def _bounds(
+    views: NDArray[np.float32],
+    seen: NDArray[np.bool_],
+    same_m: float,
+    same: float,
+    nearly: float,
+    neutral: int,
+) -> NDArray[np.uint64]:
+    """Return how far each step of length agrees with each direction at most, as words.
+
+    Parameters
+    ----------
+    views, seen, same_m, same, nearly : as for `best_agreements`
+    neutral : int
+        Quarters for what cannot be compared.
+
+    Returns
+    -------
+    ndarray, shape (LEVELS + 1, directions + TURNS - 1)
+        From the column of a direction of a place on: for views turned by 2, 1, 0, -1 and -2.
+    """
+    directions = len(seen)
+    told = np.empty((LEVELS + 1, directions, LANES), np.uint8)
+    told[:, :, :POINTS] = neutral
+    told[:, :, POINTS] = 0
+    for level in range(LEVELS):
+        shortest = LEVEL_M * level if level else -math.inf
+        longest = LEVEL_M * (level + 1) if level + 1 < LEVELS else math.inf
+        for j in range(directions):
+            if not seen[j]:
+                continue
+            told[level, j, POINTS] = 1
+            for point in range(POINTS):
+                length = float(views[point, j])
+                nearest = min(max(length, shortest), longest)
+                less = abs(length - nearest) / max(same_m, same * max(length, nearest))
+                agreeing = min(1.0, max(0.0, 1.0 + nearly + ROUNDING - less))
+                told[level, j, point] = math.ceil(QUARTERS * agreeing)
+    columns = directions + TURNS - 1
+    bounds = np.empty((LEVELS + 1, columns, SIDES * LANES), np.uint8)
+    for column in range(columns):
+        for side in range(SIDES):
+            j = (column - TURNS // 2 - side * (directions // SIDES)) % directions
+            bounds[:, column, side * LANES : (side + 1) * LANES] = told[:, j]
+    return bounds.view(np.uint64)[:, :, 0]

@@ -88,7 +88,7 @@ class SurroundingsSimilarity:
         places : ndarray, shape (n, 3 directions)
             What is remembered.
         """
-        both = both_sides(view, by_direction(places))
+        both = both_sides(view, by_direction(places), exact=False)
         similarity = self.of(both)
         similarity[np.isnan(similarity)] = self.neither
         less = similarity - similarity.max(axis=0)
@@ -114,7 +114,7 @@ class SurroundingsColumn(ViewColumn):
     def __init__(self, slot: str, scale: SimilarityScale, compared: SurroundingsSimilarity) -> None:
         super().__init__(slot, scale)
         self._compared = compared
-        self._turned: Places | None = None
+        self._ready: Places | None = None
         self._row_of: dict[str, int] = {}
 
     def append(self, value: Value | None) -> None:
@@ -122,17 +122,14 @@ class SurroundingsColumn(ViewColumn):
         if isinstance(value, View):
             self._row_of[value.name] = len(self._views)
         super().append(value)
-        self._turned = None
 
     def replace(self, row: int, value: Value) -> None:
         """Store another view for a chunk that has one."""
         super().replace(row, value)
         if isinstance(value, View):
             self._row_of[value.name] = row
-        if self._turned is not None and self._rows is not None:  # the others stay as they are
-            one = by_direction(self._rows.used[row : row + 1])
-            for rows, new in zip(self._turned, one, strict=True):
-                rows[:, row] = new[:, 0]
+        if self._rows is not None and self._ready is not None and row < len(self._ready.lengths):
+            self._ready.replace(row, by_direction(self._rows.used[row : row + 1]))
 
     def _row(self, view: View) -> NDArray[np.float32]:
         return view.descriptor
@@ -147,9 +144,7 @@ class SurroundingsColumn(ViewColumn):
         assert isinstance(requested, View)
         if self._rows is None:
             return np.full(len(self._views), self._scale.different)
-        if self._turned is None:
-            self._turned = by_direction(self._rows.used)
-        similarity = self._best(requested.descriptor, self._turned)
+        similarity = self._best(requested.descriptor, self._made_ready(self._rows.used))
         for name, seen in requested.there.items():
             if (row := self._row_of.get(name)) is not None:
                 again = self._best(seen, by_direction(self._rows.used[row : row + 1]))
@@ -157,5 +152,14 @@ class SurroundingsColumn(ViewColumn):
         similarity[np.isnan(similarity)] = self._compared.neither
         return similarity
 
+    def _made_ready(self, rows: NDArray[np.float32]) -> Places:
+        """Return all views, ready to be compared; those that came first are ready already."""
+        ready = self._ready
+        if ready is None:
+            self._ready = ready = by_direction(rows)
+        elif len(ready.lengths) < len(rows):
+            self._ready = ready = ready.and_these(by_direction(rows[len(ready.lengths) :]))
+        return ready
+
     def _best(self, view: NDArray[np.float32], places: Places) -> NDArray[np.float64]:
-        return np.asarray(np.fmax(*self._compared.of(both_sides(view, places))))
+        return np.asarray(np.fmax(*self._compared.of(both_sides(view, places, exact=False))))

@@ -11,8 +11,6 @@ from ssrics_like.compiling import compiled
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-AGREES, DIFFERS = 1, 2
-
 
 @compiled
 def compare_vistas(
@@ -43,52 +41,53 @@ def compare_vistas(
     differs : ndarray, shape (places,)
         Set where an end is none of the other's, and neither is the same beside it.
     past : ndarray, shape (places,)
-        Set where one goes on past an end of the other, in that direction and in both beside it.
+        Set where one goes on past an end of the other, in that direction and in both beside it, and
+        no end differs.
     """
     directions = len(seen)
-    turned = np.empty(directions, np.float32)
-    place = np.empty(directions, np.float32)
-    kinds = np.empty(directions, np.int64)
+    # One direction more at either end, so that each has one beside it on both sides.
+    one, other = np.empty(directions + 2, np.float32), np.empty(directions + 2, np.float32)
+    alike, crosswise = np.empty(directions + 1, np.bool_), np.empty(directions + 1, np.bool_)
+    compared, agrees = np.empty(directions + 2, np.bool_), np.empty(directions + 2, np.bool_)
     for index in range(len(turns)):
+        j = (-1 - turns[index]) % directions
+        for k in range(directions + 2):
+            one[k] = seen[j]
+            j = j + 1 if j + 1 < directions else 0
         for k in range(directions):
-            turned[k] = seen[(k - turns[index]) % directions]
-            place[k] = remembered[k, index]
-        for k in range(directions):
-            kinds[k] = _kind(turned, place, k, far_m, same_m, same)
-            if _goes_past(turned, place, k, past_by) or _goes_past(place, turned, k, past_by):
-                past[index] = True
-        for k in range(directions):
-            beside = kinds[k - 1] == AGREES or kinds[(k + 1) % directions] == AGREES
-            if kinds[k] == DIFFERS and not beside:
-                differs[index] = True
+            other[k + 1] = remembered[k, index]
+        other[0], other[directions + 1] = other[directions], other[1]
+        for k in range(directions + 1):
+            alike[k] = _same(one[k], other[k], same_m, same)
+            crosswise[k] = _same(one[k], other[k + 1], same_m, same) | _same(
+                one[k + 1], other[k], same_m, same
+            )
+        for k in range(1, directions + 1):
+            farthest = max(one[k - 1], one[k], one[k + 1], other[k - 1], other[k], other[k + 1])
+            compared[k] = (one[k] > 0.0) & (other[k] > 0.0) & (farthest >= far_m)
+            agrees[k] = compared[k] & (alike[k] | crosswise[k - 1] | crosswise[k])
+        agrees[0], agrees[directions + 1] = agrees[directions], agrees[1]
+        found = False
+        for k in range(1, directions + 1):
+            found |= compared[k] & (not (agrees[k - 1] | agrees[k] | agrees[k + 1]))
+        differs[index] = found
+        goes_past = False
+        for k in range(1, directions + 1):
+            goes_past |= _goes_past(one, other, k, past_by) | _goes_past(other, one, k, past_by)
+        past[index] = goes_past
 
 
 @compiled
-def _kind(
-    one: NDArray[np.float32], other: NDArray[np.float32], direction: int,
-    far_m: float, same_m: float, same: float,
-) -> int:  # fmt: skip
-    """Tell what the ends in and beside a direction say of it; -1 for nothing."""
-    if one[direction] <= 0.0 or other[direction] <= 0.0:
-        return -1
-    agrees = far = False
-    for aside in (-1, 0, 1):
-        beside = (direction + aside) % len(one)
-        far = far or one[beside] >= far_m or other[beside] >= far_m
-        for a, b in ((one[direction], other[beside]), (other[direction], one[beside])):
-            agrees = agrees or (b > 0.0 and abs(a - b) < max(same_m, same * max(a, b)))
-    if not far:
-        return -1
-    return AGREES if agrees else DIFFERS
+def _same(a: float, b: float, same_m: float, same: float) -> bool:
+    """Tell whether two ends are the same; False if one is none."""
+    return bool((a > 0.0) & (b > 0.0) & (abs(a - b) < max(same_m, same * max(a, b))))
 
 
 @compiled
 def _goes_past(
-    one: NDArray[np.float32], other: NDArray[np.float32], direction: int, past_by: float
+    one: NDArray[np.float32], other: NDArray[np.float32], k: int, past_by: float
 ) -> bool:
     """Tell whether one goes on past all ends of the other in and beside a direction."""
-    past = one[direction] < 0.0
-    for aside in (-1, 0, 1):
-        end = other[(direction + aside) % len(other)]
-        past = past and 0.0 < end < -one[direction] * (1.0 - past_by)
-    return bool(past)
+    nearest = min(other[k - 1], other[k], other[k + 1])
+    farthest = max(other[k - 1], other[k], other[k + 1])
+    return bool((nearest > 0.0) & (farthest < -one[k] * (1.0 - past_by)))
