@@ -16,10 +16,11 @@ from ssrics_like.memory.surroundings import (
     both_sides,
     by_direction,
 )
-from ssrics_like.memory.surroundings_kernels import LANES, LEVEL_M, POINTS, _bounds, looked_at_from
+from ssrics_like.memory.surroundings_bounds import LANES, LEVEL_M, POINTS, TURNS, bounds_by_level
+from ssrics_like.memory.surroundings_kernels import looked_at_from
 
 N = 36
-TURNS = (0, -1, 1, -2, 2)
+ASIDES = (0, -1, 1, -2, 2)
 
 
 def naive(view, rows):
@@ -33,7 +34,7 @@ def naive(view, rows):
     lengths, known = rows[:, :N], rows[:, N : 2 * N] < UNKNOWN_M
     best, turns = np.full((2, len(rows)), np.nan), np.zeros((2, len(rows)), int)
     for half in (0, 1):
-        for turn in TURNS:
+        for turn in ASIDES:
             share = np.full(len(rows), -1.0, np.float32)
             for each in looked:
                 agreeing, compared = np.zeros((2, len(rows)), np.float32)
@@ -74,6 +75,11 @@ def rows_of(lengths, unknown=0.0):
     return np.concatenate([lengths, unknown, np.zeros(lengths.shape)], axis=-1).astype(np.float32)
 
 
+def test_the_kernel_looks_at_a_view_in_all_the_ways_there_are():
+    assert len(surroundings.AHEAD_M) == POINTS
+    assert 2 * surroundings.ASIDE + 1 == TURNS
+
+
 def test_a_bound_is_just_above_what_it_bounds():
     rng = np.random.default_rng(0)
     views = rng.uniform(0.0, REACH_M, (POINTS, N)).astype(np.float32)
@@ -83,7 +89,7 @@ def test_a_bound_is_just_above_what_it_bounds():
     lengths = np.repeat(others.astype(np.float32)[:, None], N, axis=1)
     levels = by_direction(rows_of(lengths)).levels[:, 0]
     scale = surroundings.SAME_M, surroundings.SAME, surroundings.NEARLY
-    bounds = _bounds(views, np.ones(N, np.bool_), *scale, 2).view(np.uint8)
+    bounds = bounds_by_level(views, np.ones(N, np.bool_), *scale, 2).view(np.uint8)
     bounds = bounds.reshape(-1, N + 4, 2, LANES)[levels, 2 : N + 2, 0]  # as it is, not turned
     for point, view in enumerate(views):
         per_m = [1 / np.maximum(scale[0], scale[1] * each) for each in (view, lengths)]

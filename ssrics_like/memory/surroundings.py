@@ -182,11 +182,8 @@ class Places(NamedTuple):
 def by_direction(places: NDArray[np.float32]) -> Places:
     """Make ready what is remembered of places, shape (n, 3 directions), to be compared."""
     # Compiled code is loaded only where it is needed.
-    from ssrics_like.memory.surroundings_kernels import (  # noqa: PLC0415
-        HIDDEN_M,
-        LEVEL_M,
-        LEVELS,
-    )
+    from ssrics_like.memory.surroundings_bounds import LEVEL_M, LEVELS  # noqa: PLC0415
+    from ssrics_like.memory.surroundings_kernels import HIDDEN_M  # noqa: PLC0415
 
     lengths, unknown, vistas = np.split(places, 3, axis=1)
     known = unknown < UNKNOWN_M

@@ -1,10 +1,8 @@
 """Compiled: how far the surroundings of one place agree with those of many others.
 
-Few places are alike, and most that are not can be told without an exact comparison: lengths are
-coded in steps, and a table bounds how far a direction agrees whose length is in some step. Eight
-such bounds make a word, a byte each, so that one sum of words bounds how far a place agrees with
-a view that is looked at from all points and both sides. Float32 rounds neither sums of bounds nor
-a smaller sum to more than a greater one: what a bound rules out, the exact comparison does, too.
+Few places are alike, and most that are not can be told without an exact comparison, by
+`surroundings_bounds`. What a bound rules out, the exact comparison does, too: float32 rounds no
+smaller sum to more than a greater one.
 """
 
 from __future__ import annotations
@@ -15,22 +13,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ssrics_like.compiling import compiled
+from ssrics_like.memory.surroundings_bounds import (
+    LANES,
+    POINTS,
+    QUARTERS,
+    SIDES,
+    TURNS,
+    bounds_by_level,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-POINTS, SIDES, TURNS = 3, 2, 5
-"""A view is looked at from so many points, from so many sides, and turned in so many ways."""
-LANES = POINTS + 1
-"""Bytes for a side: a bound for each point, and how many directions are compared."""
-LEVEL_M, LEVELS = 0.0625, 96
-"""How long a step is, and in how many lengths are coded."""
 HIDDEN_M = 1e6
 """Stands for a length that is unknown: it agrees with no other."""
-QUARTERS = 4
-"""Bounds are told in quarters of a direction: float32 adds those without rounding."""
-ROUNDING = 1e-5
-"""What a bound has to spare: more than float32 is wrong by in how far a direction agrees."""
 TOP = 128
 """The top bit of a byte."""
 
@@ -121,7 +117,7 @@ def best_agreements(
     """
     places, directions = lengths.shape
     neutral = math.ceil(QUARTERS * strange)
-    bounds = _bounds(views, seen, same_m, same, nearly, neutral)
+    bounds = bounds_by_level(views, seen, same_m, same, nearly, neutral)
     # A sum begins so that in the end the top bit of a byte tells whether more may agree than in
     # strange places, or whether enough is compared.
     begin, top = np.empty(SIDES * LANES, np.uint8), np.empty(SIDES * LANES, np.uint8)
@@ -227,51 +223,3 @@ def _twice_round(
             lengths[point, i] = views[point, j] if seen[j] else np.float32(-HIDDEN_M)
             per_m[point, i] = _per_m(views[point, j], same_m, same)
     return lengths, per_m
-
-
-@compiled
-def _bounds(
-    views: NDArray[np.float32],
-    seen: NDArray[np.bool_],
-    same_m: float,
-    same: float,
-    nearly: float,
-    neutral: int,
-) -> NDArray[np.uint64]:
-    """Return how far each step of length agrees with each direction at most, as words.
-
-    Parameters
-    ----------
-    views, seen, same_m, same, nearly : as for `best_agreements`
-    neutral : int
-        Quarters for what cannot be compared.
-
-    Returns
-    -------
-    ndarray, shape (LEVELS + 1, directions + TURNS - 1)
-        From the column of a direction of a place on: for views turned by 2, 1, 0, -1 and -2.
-    """
-    directions = len(seen)
-    told = np.empty((LEVELS + 1, directions, LANES), np.uint8)
-    told[:, :, :POINTS] = neutral
-    told[:, :, POINTS] = 0
-    for level in range(LEVELS):
-        shortest = LEVEL_M * level if level else -math.inf
-        longest = LEVEL_M * (level + 1) if level + 1 < LEVELS else math.inf
-        for j in range(directions):
-            if not seen[j]:
-                continue
-            told[level, j, POINTS] = 1
-            for point in range(POINTS):
-                length = float(views[point, j])
-                nearest = min(max(length, shortest), longest)
-                less = abs(length - nearest) / max(same_m, same * max(length, nearest))
-                agreeing = min(1.0, max(0.0, 1.0 + nearly + ROUNDING - less))
-                told[level, j, point] = math.ceil(QUARTERS * agreeing)
-    columns = directions + TURNS - 1
-    bounds = np.empty((LEVELS + 1, columns, SIDES * LANES), np.uint8)
-    for column in range(columns):
-        for side in range(SIDES):
-            j = (column - TURNS // 2 - side * (directions // SIDES)) % directions
-            bounds[:, column, side * LANES : (side + 1) * LANES] = told[:, j]
-    return bounds.view(np.uint64)[:, :, 0]

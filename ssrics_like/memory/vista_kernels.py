@@ -41,8 +41,7 @@ def compare_vistas(
     differs : ndarray, shape (places,)
         Set where an end is none of the other's, and neither is the same beside it.
     past : ndarray, shape (places,)
-        Set where one goes on past an end of the other, in that direction and in both beside it, and
-        no end differs.
+        Set where one goes on past an end of the other, in that direction and in both beside it.
     """
     directions = len(seen)
     # One direction more at either end, so that each has one beside it on both sides.
