@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from ssrics_like.library import find
-from ssrics_like.memory.measurement import ASTRAY, ASTRAY_M
+from ssrics_like.memory.measurement import ASTRAY, ASTRAY_M, BOTH
 from ssrics_like.modules import LandmarkModules
 from ssrics_like.perception.reflex import Reflex
 from ssrics_like.poses import Pose
@@ -65,7 +65,7 @@ class Mind:
 
     def strangely(self, landmark, t_s):
         """Meet a doorway that looks another, as far astray as counts for exp(-2.75)."""
-        astray_m = ASTRAY_M * math.sqrt(2 * (2.75 + math.log(ASTRAY)))
+        astray_m = ASTRAY_M * math.sqrt(2 * (2.75 + math.log(ASTRAY + BOTH)))
         return self.meet(landmark, t_s, astray_m, STRANGE_M)
 
 

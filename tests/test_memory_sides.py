@@ -73,8 +73,9 @@ def test_a_frame_that_was_believed_to_be_turned_otherwise_changes_no_link(turn_r
         [before], lambda _: {"L2": link}, Here(seen, True, 5.0, 0.0), SD, lambda _: {}
     )
     assert case.turned_rad == pytest.approx(turn_rad, abs=0.01)
-    assert case.link.pose.distance_m(link.pose) < 0.02
-    assert case.link.pose.theta_rad == pytest.approx(0.4, abs=0.005)
+    learned = case.link(Link(Pose(0.0, 0.0, 0.0), 0.0, 0.0))
+    assert learned.pose.distance_m(link.pose) < 0.02
+    assert learned.pose.theta_rad == pytest.approx(0.4, abs=0.005)
 
 
 def test_a_robot_that_may_be_anywhere_came_from_the_side_that_fits():

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ssrics_like.memory.expectation import FAR, Uncertainty
 from ssrics_like.memory.hypotheses import Here, Hypothesis
 from ssrics_like.memory.links import Link
-from ssrics_like.memory.measurement import ASTRAY_M, measured_direction, measured_place
+from ssrics_like.memory.measurement import ASTRAY_M, measured
 from ssrics_like.memory.sides import EITHER, Side, Sides, SidesOf
 from ssrics_like.poses import Pose
 
@@ -40,8 +40,8 @@ class Case(NamedTuple):
         Variance of each coordinate of that, and of where the robot is.
     fix : Link
         The landmark's frame in that of path integration, now that it was perceived here.
-    link : Link or None
-        The landmark's frame in that of the one before; None if that is not known.
+    onward : Link or None
+        Where it was expected, seen from the one before; None if that is not known.
     turned_rad : float
         By how much the frame of the one before is turned against what was believed.
     """
@@ -52,8 +52,25 @@ class Case(NamedTuple):
     expected: Pose
     known_m2: float
     fix: Link
-    link: Link | None
+    onward: Link | None = None
     turned_rad: float = 0.0
+
+    def link(self, drift: Link) -> Link:
+        """Return where the landmark lies, seen from the one before, as it was perceived now.
+
+        Parameters
+        ----------
+        drift : Link
+            How far path integration has gone astray since.
+        """
+        before, fix = self.before.fix, self.fix
+        at = before.pose
+        turned = Pose(at.x_m, at.y_m, at.theta_rad + self.turned_rad)
+        return Link(
+            fix.pose.seen_from(turned),
+            max(before.variance_m2 + drift.variance_m2, fix.variance_m2),
+            min(before.variance_rad2 + drift.variance_rad2, fix.variance_rad2),
+        ).bounded
 
 
 def cases_near(
@@ -88,14 +105,10 @@ def cases_near(
         for hypothesis in hypotheses if hypothesis.landmark is not None
         for case in _by_place(hypothesis, around(hypothesis.landmark), here, sd)
     ]  # fmt: skip
-    seen = sides_of(dict.fromkeys(case.landmark for case in found)) if here.directed else {}
-    cases = []
-    for case in found:
-        drift = sd.since(case.before, here)
-        sides = seen.get(case.landmark, EITHER)
-        told = _by_direction(case, here, sd, sides, drift) if here.directed else case
-        cases.append(told._replace(link=_link(told, drift)))
-    return cases
+    if not here.directed:
+        return found
+    sides = sides_of(dict.fromkeys(case.landmark for case in found))
+    return [_by_direction(case, here, sd, sides.get(case.landmark, EITHER)) for case in found]
 
 
 def _by_place(
@@ -110,60 +123,34 @@ def _by_place(
         off_m2 = (seen.x_m - link.pose.x_m) ** 2 + (seen.y_m - link.pose.y_m) ** 2
         if off_m2 > 2.0 * FAR * (known_m2 + max(ASTRAY_M, sd.place_m) ** 2):
             continue
-        nats, fix, turned_rad = measured_place(before, link, drift, here.place, sd.place_m)
+        nats, fix, turned_rad = measured(before, link, drift, here.place, sd.place_m)
         if nats < FAR:
             expected = before.pose.onward(link.pose)
             yield Case(name, nats, hypothesis, expected, known_m2, fix, link, turned_rad)
 
 
-def _link(case: Case, drift: Link) -> Link:
-    """Return where the landmark lies, seen from the one before, as it was perceived now."""
-    before, fix = case.before.fix, case.fix
-    at = before.pose
-    turned = Pose(at.x_m, at.y_m, at.theta_rad + case.turned_rad)
-    return Link(
-        fix.pose.seen_from(turned),
-        max(before.variance_m2 + drift.variance_m2, fix.variance_m2),
-        min(before.variance_rad2 + drift.variance_rad2, fix.variance_rad2),
-    ).bounded
-
-
-def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides, drift: Link) -> Case:
+def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
     """Return the same, given its direction and from which side it looks like what is seen.
 
     From the other side a doorway is the same, half a turn off.
     """
-    ahead_rad = here.place.theta_rad - case.fix.pose.theta_rad
-    reverse = _reverse(ahead_rad, case.fix.variance_rad2 + sd.direction_rad**2)
-    sides = (1.0 - reverse) * math.exp(seen.ahead.nats), reverse * math.exp(seen.behind.nats)
-    side = seen.ahead if sides[0] >= sides[1] else seen.behind
-    turn_rad = math.remainder(ahead_rad - (side.turn_rad or 0.0), math.pi)
-    sd_rad = _told_rad(side, sd)
-    known_rad2 = case.fix.variance_rad2
-    nats, fix, turned_rad = measured_direction(case.fix, turn_rad, sd_rad)
-    # Some of that is due to the way between, and has not turned the frame of the one before.
-    assert case.link is not None  # as it is expected, until `_link`
-    between_rad2 = case.link.variance_rad2 + drift.variance_rad2
-    share = 1.0 - between_rad2 / known_rad2 if known_rad2 > 0.0 else 0.0
-    return case._replace(
-        nats=case.nats + nats - math.log(sum(sides)), fix=fix,
-        turned_rad=case.turned_rad + share * turned_rad,
-    )  # fmt: skip
+    assert case.onward is not None
+    before, drift, place = case.before.fix, sd.since(case.before, here), here.place
+    found = []
+    for half_rad, side in zip((0.0, math.pi), seen, strict=True):
+        theta_rad = place.theta_rad + half_rad - (side.turn_rad or 0.0)
+        at = Pose(place.x_m, place.y_m, theta_rad)
+        if_so = measured(before, case.onward, drift, at, sd.place_m, _told_rad(side, sd))
+        found.append(if_so._replace(nats=if_so.nats - side.nats))
+    one, other = sorted(found, key=lambda one: one.nats)
+    nats = one.nats - math.log1p(math.exp(one.nats - other.nats))
+    return case._replace(nats=nats, fix=one.fix, turned_rad=one.turned_rad)
 
 
 def _told_rad(side: Side, sd: Uncertainty) -> float:
     """Return how exactly a direction is perceived from a side (standard deviation)."""
     by_jambs = sd.direction_rad
     return by_jambs if side.turn_rad is None else min(TURNED_RAD, by_jambs)
-
-
-def _reverse(turn_rad: float, variance_rad2: float) -> float:
-    """Return how probable it is that a direction so far from the one expected is its reverse."""
-    ahead, behind = (
-        0.5 * math.remainder(turn, math.tau) ** 2 / variance_rad2
-        for turn in (turn_rad, turn_rad + math.pi)
-    )
-    return 1.0 / (1.0 + math.exp(min(behind - ahead, 700.0)))
 
 
 def cases_anywhere(
@@ -200,5 +187,5 @@ def cases_anywhere(
             variance_rad2 = sd_rad**2 if here.directed else UNDIRECTED_RAD2
             fix = Link(Pose(x_m, y_m, turned_rad), sd.place_m**2, variance_rad2)
             nats = math.log(of * len(halves)) - side.nats
-            found += [Case(name, nats, h, fix.pose, fix.variance_m2, fix, None) for h in lost]
+            found += [Case(name, nats, h, fix.pose, fix.variance_m2, fix) for h in lost]
     return found

@@ -1,26 +1,32 @@
 """What perceiving a landmark tells of where its frame lies: a Kalman update that knows outliers.
 
-Where a landmark lies is uncertain along the way to it, by how far path integration and the links
-are off, and more so across it, by how uncertainly the frame is turned in which that way is known.
-So a landmark that is perceived aside of where it was expected turns the frame as well.
+Where a landmark lies is uncertain by how far path integration and the links are off, and across the
+way to it by how uncertainly the frame is turned in which that way is known. So a landmark that is
+perceived aside of where it was expected, or turned, turns that frame as well.
 
-Now and then one is perceived astray. What is perceived then is not spread about at random: it is
-what else there is, and may well look like a copy of where the robot is not. So it counts as a hit
-of a lesser kind, and is not made less probable by how much room there is to err in.
+Now and then one is perceived astray, or askew, or both, as a doorway is that is entered at a slant.
+What is perceived then is not spread about at random: it is what else there is, and may well look
+like a copy of where the robot is not. So it counts as a hit of a lesser kind, and is not made less
+probable by how much room there is to err in.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from ssrics_like.memory.links import Link
 from ssrics_like.poses import Pose
 
-ASTRAY, ASTRAY_M = 0.2, 0.33
-"""So often a landmark is perceived astray, and how far then (standard deviation)."""
-ASKEW, ASKEW_RAD = 0.2, 0.9
-"""So often its direction is mismeasured, and by how much then (standard deviation)."""
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+ASTRAY_M, ASKEW_RAD = 0.33, 0.9
+"""How far astray a landmark is perceived now and then, and how far askew (standard deviations)."""
+HIT, ASTRAY, ASKEW, BOTH = 0.7, 0.1, 0.1, 0.1
+"""How often neither is so, the place only, the direction only, both."""
 
 
 class Measured(NamedTuple):
@@ -32,10 +38,9 @@ class Measured(NamedTuple):
         Minus the logarithm of how probable it was to perceive it so: 0 for one that was known for
         certain and hit.
     fix : Link
-        The frame, in that of path integration; its variances are those that are left, of a hit and
-        of an outlier on average.
+        The frame, in that of path integration.
     turned_rad : float
-        By how much it is turned against what was expected.
+        By how much the frame of the landmark before is turned against what was believed.
     """
 
     nats: float
@@ -43,10 +48,15 @@ class Measured(NamedTuple):
     turned_rad: float
 
 
-def measured_place(
-    before: Link, onward: Link, drift: Link, place: Pose, place_sd_m: float
+def measured(
+    before: Link,
+    onward: Link,
+    drift: Link,
+    place: Pose,
+    place_sd_m: float,
+    direction_sd_rad: float = math.inf,
 ) -> Measured:
-    """Perceive a landmark in a place.
+    """Perceive a landmark.
 
     Parameters
     ----------
@@ -57,84 +67,120 @@ def measured_place(
     drift : Link
         How far path integration has gone astray since then; its pose is of no account.
     place : Pose
-        Where it was perceived; its direction does not count here.
-    place_sd_m : float
-        How exactly landmarks are perceived (standard deviation).
+        Where it was perceived, in the frame of path integration.
+    place_sd_m, direction_sd_rad : float
+        How exactly landmarks are perceived (standard deviations); infinite where no direction was.
     """
-    start, seen = before.pose, place.seen_from(before.pose)
-    expected_m = math.hypot(onward.pose.x_m, onward.pose.y_m)
-    seen_m = math.hypot(seen.x_m, seen.y_m)
-    bearing_rad = math.atan2(onward.pose.y_m, onward.pose.x_m)
-    aside_rad = math.remainder(math.atan2(seen.y_m, seen.x_m) - bearing_rad, math.tau)
-    # How much too far it is, and the chord by which it is aside: by the law of cosines their
-    # squares add up to that of how far it is off, whatever the angle.
-    far_m, lever_m2 = seen_m - expected_m, seen_m * expected_m
-    aside_m2 = 4.0 * lever_m2 * math.sin(0.5 * aside_rad) ** 2
-    along_m2 = before.variance_m2 + onward.variance_m2 + drift.variance_m2
-    turning_m2 = before.variance_rad2 * lever_m2
-    across_m2 = along_m2 + turning_m2
-
-    def nats(variance_m2: float) -> float:
-        along, across = along_m2 + variance_m2, across_m2 + variance_m2
-        log_area = math.log(along * across / variance_m2**2)
-        return 0.5 * (far_m**2 / along + aside_m2 / across + log_area)
-
-    hit_m2, astray_m2 = place_sd_m**2, max(ASTRAY_M, place_sd_m) ** 2
-    improbable, astray = _mixed(nats(hit_m2), nats(astray_m2), ASTRAY)
-    along = along_m2 * _mean(1.0 / (along_m2 + hit_m2), 1.0 / (along_m2 + astray_m2), astray)
-    weight = _mean(1.0 / (across_m2 + hit_m2), 1.0 / (across_m2 + astray_m2), astray)
-    across, turning = weight * across_m2, weight * turning_m2
-    turned_rad = turning * aside_rad
-    length_m = expected_m + along * far_m
-    direction_rad = start.theta_rad + bearing_rad + across * aside_rad
-    fix = Link(
-        Pose(
-            start.x_m + length_m * math.cos(direction_rad),
-            start.y_m + length_m * math.sin(direction_rad),
-            math.remainder(start.theta_rad + onward.pose.theta_rad + turned_rad, math.tau),
-        ),
-        (1.0 - across) * across_m2,  # the greater of both
-        (1.0 - turning) * before.variance_rad2 + onward.variance_rad2 + drift.variance_rad2,
-    )
-    return Measured(improbable, fix, turned_rad)
+    way = _way(before, onward, drift, place)
+    hit_m2, hit_rad2 = place_sd_m**2, direction_sd_rad**2
+    astray_m2, askew_rad2 = max(ASTRAY_M, place_sd_m) ** 2, max(ASKEW_RAD, direction_sd_rad) ** 2
+    return _mixed([
+        (HIT, way.ended(hit_m2, hit_rad2)),
+        (ASTRAY, way.ended(astray_m2, hit_rad2)),
+        (ASKEW, way.ended(hit_m2, askew_rad2)),
+        (BOTH, way.ended(astray_m2, askew_rad2)),
+    ])  # fmt: skip
 
 
-def measured_direction(fix: Link, turn_rad: float, direction_sd_rad: float) -> Measured:
-    """Perceive a landmark's direction.
+class _Way(NamedTuple):
+    """The way to a landmark, as it was believed and as it was perceived.
 
-    Parameters
+    Attributes
     ----------
-    fix : Link
-        The frame, as expected, in that of path integration.
-    turn_rad : float
-        By how much the direction differs from that of the frame, half a turn being no difference.
-    direction_sd_rad : float
-        How exactly it is perceived (standard deviation).
+    start, onward, place : Pose
+        The frame before; the landmark's, seen from there; where it was perceived.
+    frame_rad2 : float
+        How uncertainly the frame before is turned (variance).
+    off_m2, off_rad2 : float
+        How far off the landmark may lie, and be turned, seen from a frame of which that is known.
+    too_far_m, lever_m2 : float
+        How much further it was perceived; the square of the lever with which it may be aside.
+    aside_rad, askew_rad : float
+        By how much the frame before seems to be turned, by place and by direction.
     """
-    known_rad2 = fix.variance_rad2
 
-    def nats(variance_rad2: float) -> float:
-        both_rad2 = known_rad2 + variance_rad2
-        return 0.5 * (turn_rad**2 / both_rad2 + math.log(both_rad2 / variance_rad2))
+    start: Pose
+    onward: Pose
+    place: Pose
+    frame_rad2: float
+    off_m2: float
+    off_rad2: float
+    too_far_m: float
+    lever_m2: float
+    aside_rad: float
+    askew_rad: float
 
-    hit_rad2, askew_rad2 = direction_sd_rad**2, max(ASKEW_RAD, direction_sd_rad) ** 2
-    improbable, askew = _mixed(nats(hit_rad2), nats(askew_rad2), ASKEW)
-    gain = known_rad2 * _mean(1.0 / (known_rad2 + hit_rad2), 1.0 / (known_rad2 + askew_rad2), askew)
-    pose, turned_rad = fix.pose, gain * turn_rad
-    turned = Pose(pose.x_m, pose.y_m, math.remainder(pose.theta_rad + turned_rad, math.tau))
-    found = Link(turned, fix.variance_m2, (1.0 - gain) * known_rad2)
-    return Measured(improbable, found, turned_rad)
+    def ended(self, place_m2: float, direction_rad2: float) -> Measured:
+        """Return what is believed, if the landmark was perceived so exactly (variances).
+
+        All hangs on how the frame before is turned: what is left then to explain is due to the
+        landmark alone, and is shared out between what is believed of it and what was perceived.
+        """
+        off_m2, off_rad2 = self.off_m2 + place_m2, self.off_rad2 + direction_rad2
+        by_place, by_direction = self.lever_m2 / off_m2, 1.0 / off_rad2
+        told = 1.0 + self.frame_rad2 * (by_place + by_direction)
+        seems_rad = by_place * self.aside_rad + by_direction * self.askew_rad
+        turned_rad, left_rad2 = self.frame_rad2 / told * seems_rad, self.frame_rad2 / told
+        # By the law of cosines the squares of both add up to that of how far it is off, whatever
+        # the angle.
+        aside_m2 = 4.0 * self.lever_m2 * math.sin(0.5 * (self.aside_rad - turned_rad)) ** 2
+        square = (self.too_far_m**2 + aside_m2) / off_m2
+        square += by_direction * (self.askew_rad - turned_rad) ** 2
+        if turned_rad:
+            square += turned_rad**2 / self.frame_rad2
+        area = (off_m2 / place_m2) ** 2 * told * (1.0 + self.off_rad2 / direction_rad2)
+
+        gain, turn_gain = self.off_m2 / off_m2, self.off_rad2 / off_rad2
+        turned = Pose(self.start.x_m, self.start.y_m, self.start.theta_rad + turned_rad)
+        at, place = turned.onward(self.onward), self.place
+        fix = Link(
+            Pose(
+                at.x_m + gain * (place.x_m - at.x_m),
+                at.y_m + gain * (place.y_m - at.y_m),
+                at.theta_rad + turn_gain * (self.askew_rad - turned_rad),
+            ),
+            # Across the way, where it is greater.
+            (1.0 - gain) * self.off_m2 + (1.0 - gain) ** 2 * self.lever_m2 * left_rad2,
+            (1.0 - turn_gain) * self.off_rad2 + (1.0 - turn_gain) ** 2 * left_rad2,
+        )
+        return Measured(0.5 * (square + math.log(area)), fix, turned_rad)
 
 
-def _mixed(hit: float, outlier: float, outliers: float) -> tuple[float, float]:
-    """Return minus the logarithm of a mixture of two densities, and the outlier's share of it.
+def _way(before: Link, onward: Link, drift: Link, place: Pose) -> _Way:
+    seen, expected = place.seen_from(before.pose), onward.pose
+    seen_m, expected_m = math.hypot(seen.x_m, seen.y_m), math.hypot(expected.x_m, expected.y_m)
+    aside_rad = math.atan2(seen.y_m, seen.x_m) - math.atan2(expected.y_m, expected.x_m)
+    return _Way(
+        before.pose, expected, place, before.variance_rad2,
+        before.variance_m2 + onward.variance_m2 + drift.variance_m2,
+        onward.variance_rad2 + drift.variance_rad2,
+        seen_m - expected_m, seen_m * expected_m,
+        math.remainder(aside_rad, math.tau),
+        math.remainder(seen.theta_rad - expected.theta_rad, math.tau),
+    )  # fmt: skip
 
-    Of both minus the logarithm is given, and how frequent outliers are.
-    """
-    least = min(hit, outlier)
-    a, b = (1.0 - outliers) * math.exp(least - hit), outliers * math.exp(least - outlier)
-    return least - math.log(a + b), b / (a + b)
+
+def _mixed(kinds: list[tuple[float, Measured]]) -> Measured:
+    """Return mean and variances of what may have been measured, each so often."""
+    least = min(kind.nats for _, kind in kinds)
+    odds = np.array([often * math.exp(least - kind.nats) for often, kind in kinds])
+    total = odds.sum()
+    shares = odds / total
+    one, poses = kinds[0][1].fix.pose, [kind.fix.pose for _, kind in kinds]
+    turns = [math.remainder(pose.theta_rad - one.theta_rad, math.tau) for pose in poses]
+    off = np.array([
+        (pose.x_m - one.x_m, pose.y_m - one.y_m, turn)
+        for pose, turn in zip(poses, turns, strict=True)
+    ])  # fmt: skip
+    own = np.array([(k.fix.variance_m2, k.fix.variance_rad2, k.turned_rad) for _, k in kinds])
+    x_m, y_m, turn_rad = mean = _mean(shares, off)
+    variance_m2, variance_rad2, turned_rad = _mean(shares, own)
+    x_m2, y_m2, turn_rad2 = _mean(shares, (off - mean) ** 2)
+    pose = Pose(one.x_m + x_m, one.y_m + y_m, math.remainder(one.theta_rad + turn_rad, math.tau))
+    fix = Link(pose, variance_m2 + x_m2 + y_m2, variance_rad2 + turn_rad2)
+    return Measured(least - math.log(total), fix, turned_rad)
 
 
-def _mean(of_hit: float, of_outlier: float, outlier: float) -> float:
-    return (1.0 - outlier) * of_hit + outlier * of_outlier
+def _mean(shares: NDArray[np.float64], rows: NDArray[np.float64]) -> list[float]:
+    mean: list[float] = (shares[:, np.newaxis] * rows).sum(axis=0).tolist()
+    return mean

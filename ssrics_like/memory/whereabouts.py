@@ -241,8 +241,8 @@ class Whereabouts:
             self._be_at(here, Hypothesis(landmark, Link(here.place, 0.0, 0.0), here, 0.0))
             return None
         before = case.before
-        if before.landmark is not None and before.landmark != landmark and case.link is not None:
-            self._links.relate(before.landmark, landmark, case.link)
+        if before.landmark is not None and before.landmark != landmark:
+            self._links.relate(before.landmark, landmark, case.link(self._sd.since(before, here)))
         self._be_at(here, Hypothesis(landmark, case.fix, here, 0.0))
         return before if before.landmark is not None else None
 

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 LIMIT_M = 2.5  # a wall farther aside bounds no gap
 TURNS, TURN_RAD = 10, math.radians(5.0)  # the line between the jambs is sought so far either way
 OBLIQUE_M = 0.02  # what a turn of 5 degrees costs, so that of equal gaps the straight one is taken
+NEARLY_M = 0.1  # lines longer by that than the shortest one cross the same doorway: walls are thick
+LEAST_M = 0.5  # no robot goes through less: the way is not where it was believed to be
+BESIDE_M, BESIDE_TURNS = 0.3, 3  # of lines nearly as short, one farther off crosses another gap
 
 
 @compiled
@@ -48,6 +51,64 @@ def narrowest(
         if width < best:
             best, left, right, towards = width, to_left, to_right, angle
     return left, right, towards
+
+
+@compiled
+def doorway_frame(
+    evidence: NDArray[np.int8],
+    seen_m: NDArray[np.float64],
+    way_m: NDArray[np.float64],
+    through_rad: float,
+    oldest_m: float,
+) -> tuple[float, float, float, float]:
+    """Find the frame of a doorway from all lines across the way that are nearly as short as can be.
+
+    One line depends on where just the way leads, and on cells; their mean does not.
+
+    Parameters
+    ----------
+    evidence, seen_m, oldest_m : as for `narrowest`
+    way_m : ndarray, shape (n, 2)
+        Places along the way through the doorway, frame of the map.
+    through_rad : float
+        The direction through it, nearly.
+
+    Returns
+    -------
+    tuple of float
+        x and y of its middle, the direction through, and how wide it is; metres, radians. That is
+        infinite, and all else NaN, if nothing stands beside the way.
+    """
+    turns = 2 * TURNS + 1
+    lines = np.full((len(way_m), turns, 3), np.inf)  # length, x and y of the middle
+    for i in range(len(way_m)):
+        x, y = way_m[i]
+        for turn in range(turns):
+            aside = through_rad + math.pi / 2 + (turn - TURNS) * TURN_RAD
+            dx, dy = math.cos(aside), math.sin(aside)
+            to_left, _ = march(evidence, seen_m, (x, y), (dx, dy), LIMIT_M, oldest_m)
+            to_right, _ = march(evidence, seen_m, (x, y), (-dx, -dy), LIMIT_M, oldest_m)
+            if to_left + to_right < LEAST_M:
+                continue
+            off = 0.5 * (to_left - to_right)
+            lines[i, turn, 0] = to_left + to_right + 0.5 * OBLIQUE_M * abs(turn - TURNS)
+            lines[i, turn, 1], lines[i, turn, 2] = x + off * dx, y + off * dy
+    best_turn = int(np.argmin(lines[:, :, 0])) % turns
+    best = lines[int(np.argmin(lines[:, best_turn, 0])), best_turn]
+    if not best[0] < 2.0 * LIMIT_M:
+        return math.nan, math.nan, math.nan, math.inf
+    count = 0
+    total_x = total_y = total_turn = 0.0
+    for i in range(len(way_m)):
+        for turn in range(turns):
+            length, x, y = lines[i, turn]
+            near = abs(turn - best_turn) <= BESIDE_TURNS
+            near = near and math.hypot(x - best[1], y - best[2]) < BESIDE_M
+            if near and length <= best[0] + NEARLY_M:
+                count += 1
+                total_x, total_y, total_turn = total_x + x, total_y + y, total_turn + turn - TURNS
+    theta = through_rad + total_turn / count * TURN_RAD
+    return total_x / count, total_y / count, theta, best[0]
 
 
 @compiled

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ssrics_like.perception import frame_kernels
 from ssrics_like.perception import gap_kernels as kernels
 from ssrics_like.perception.local_map import MEMORY_M
 from ssrics_like.perception.observation import Pose
@@ -81,3 +82,47 @@ def gap_features(
         local.evidence, local.seen_m, place, travelled_m - MEMORY_M, measures
     )
     return measures, Pose(x_m, y_m, math.remainder(theta_rad, math.tau))
+
+
+class DoorwayFrame(NamedTuple):
+    """Where a doorway is.
+
+    Attributes
+    ----------
+    middle : Pose
+        Midway between its jambs, and the direction through that the robot takes; frame of odometry.
+    width_m : float
+        From jamb to jamb.
+    """
+
+    middle: Pose
+    width_m: float
+
+
+def doorway_frame(
+    local: LocalMap, way_m: NDArray[np.float64], through_rad: float, travelled_m: float
+) -> DoorwayFrame | None:
+    """Say where the doorway is that lies on the robot's way.
+
+    Parameters
+    ----------
+    local : LocalMap
+        The surroundings.
+    way_m : ndarray, shape (n, 2)
+        Places along the way through; metres, frame of odometry.
+    through_rad : float
+        The direction through, nearly.
+    travelled_m : float
+        Metres travelled so far.
+
+    Returns
+    -------
+    DoorwayFrame or None
+        None if nothing stands beside the way.
+    """
+    x_m, y_m, theta_rad, width_m = frame_kernels.doorway_frame(
+        local.evidence, local.seen_m, way_m, through_rad, travelled_m - MEMORY_M
+    )
+    if math.isinf(width_m):
+        return None
+    return DoorwayFrame(Pose(x_m, y_m, math.remainder(theta_rad, math.tau)), width_m)

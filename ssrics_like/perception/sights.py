@@ -10,6 +10,8 @@ import math
 from collections import deque
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ssrics_like.perception.doorways import APART_M, DoorwayWatch, SeenDoorway
 from ssrics_like.perception.gap import FEATURES
 from ssrics_like.perception.novelty_watch import Moment
@@ -18,7 +20,6 @@ from ssrics_like.perception.structure import StructureWatch, corridor_or_room
 from ssrics_like.perception.surroundings import UNSEEN, Described, Surroundings
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from ssrics_like.perception.doorways import DoorwayCue
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 DOORWAY = "doorway"
 NECK_M = 0.4
 """A doorway is where the gap is narrowest, at most so far from where it looks most like one."""
+WIDEST_M = 1.4
+"""A gap that is no wider is the doorway, even if the robot turns back in it."""
 ASIDE_M = 0.5
 """The robot went through: the middle of the doorway cannot lie farther from its way."""
 BEFORE_M, THROUGH_M = 0.5, 0.5
@@ -153,20 +156,27 @@ class Sights:
         self._doorway_m = described.place.nearest.travelled_m
         novelty = self._watch.novelty_at(described.place.at_m)
         return Moment(
-            described.place.nearest._replace(structure=DOORWAY, gap=self._neck(described)),
+            described.place.nearest._replace(structure=DOORWAY, gap=self._doorway(described)),
             0.0 if novelty is None else novelty,
         )
 
-    def _neck(self, seen: Described[Sensed]) -> Pose | None:
+    def _doorway(self, seen: Described[Sensed]) -> Pose | None:
         """Return where the doorway is that was seen; None where no gap lies on the way."""
-        near = (
+        near = [
             described
             for described in self._recent
             if abs(described.place.at_m - seen.place.at_m) <= NECK_M
-        )
+        ]
         neck = min(near, key=lambda described: float(described.measures[WIDTH]), default=seen)
-        aside_m = math.hypot(neck.gap.x_m - neck.place.x_m, neck.gap.y_m - neck.place.y_m)
-        return neck.gap if aside_m <= ASIDE_M and self._went_through(seen, neck.gap) else None
+        way_m = np.array([(each.place.x_m, each.place.y_m) for each in near])
+        found = self._surroundings.doorway_on(_denser(way_m), neck.gap.theta_rad)
+        if found is None:
+            return None
+        middle = found.middle
+        aside_m = np.hypot(*(way_m - (middle.x_m, middle.y_m)).T).min()
+        if found.width_m <= WIDEST_M or (aside_m <= ASIDE_M and self._went_through(seen, middle)):
+            return middle
+        return None
 
     def _went_through(self, seen: Described[Sensed], gap: Pose) -> bool:
         """Tell whether the robot went on through a gap, and did not turn back in it."""
@@ -176,3 +186,10 @@ class Sights:
         )
         cos, sin = math.cos(gap.theta_rad), math.sin(gap.theta_rad)
         return cos * (after.x_m - before.x_m) + sin * (after.y_m - before.y_m) >= THROUGH_M
+
+
+def _denser(way_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Add to a way the places midway between those of it."""
+    steps = np.arange(0.0, len(way_m) - 0.75, 0.5)
+    index = np.arange(len(way_m))
+    return np.stack([np.interp(steps, index, column) for column in way_m.T], axis=1)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
-from ssrics_like.perception.gap import gap_features
+from ssrics_like.perception.gap import DoorwayFrame, doorway_frame, gap_features
 from ssrics_like.perception.layout import layout_measures
 from ssrics_like.perception.local_map import LocalMap
 from ssrics_like.perception.surround_view import DIRECTIONS, REACH_M, surround_view
@@ -143,6 +143,10 @@ class Surroundings(Generic[T]):
         vista = self._vista.view_of(place) if far else np.zeros(DIRECTIONS, np.float32)
         view = np.concatenate([near, vista])
         return np.asarray(np.round(view, DECIMALS))
+
+    def doorway_on(self, way_m: NDArray[np.float64], through_rad: float) -> DoorwayFrame | None:
+        """Say where the doorway is that lies on the robot's way, as `doorway_frame`."""
+        return doorway_frame(self._map, way_m, through_rad, self._walk.travelled_m)
 
     def _described(self, place: Place[T]) -> Described[T]:
         here_m = self._walk.travelled_m
