@@ -161,6 +161,20 @@ def test_of_a_frame_turned_by_anything_only_the_distance_is_known():
         assert found.fix.variance_rad2 < 0.07**2
 
 
+@given(st.floats(-math.pi, math.pi), st.floats(-0.1, 0.1))
+def test_a_frame_turned_by_anything_may_be_turned_by_anything_else(turn_rad, askew_rad):
+    """Place and direction agree on how it is turned, on whichever side of half a turn."""
+    before = Link(Pose(0.0, 0.0, 0.0), 0.01, 10.0)
+    onward = Link(Pose(5.0, 0.0, 0.0), 0.001, 0.0001)
+    at = Pose(5.0 * math.cos(turn_rad), 5.0 * math.sin(turn_rad), turn_rad + askew_rad)
+    found = measured(before, onward, STILL, at, SD_M, SD_RAD)
+    straight = measured(before, onward, STILL, Pose(5.0, 0.0, askew_rad), SD_M, SD_RAD).nats
+    assert found.nats == pytest.approx(straight + 0.5 * turn_rad**2 / 10.0, abs=0.1)
+    assert math.remainder(found.fix.pose.theta_rad - turn_rad, math.tau) == pytest.approx(
+        0.0, abs=0.06
+    )
+
+
 def test_what_is_perceived_astray_corrects_less():
     before, onward = Link(Pose(0.0, 0.0, 0.0), 0.03, 0.05**2), Link(Pose(4.0, 0.0, 0.0), 0.0, 0.0)
     near, far = (

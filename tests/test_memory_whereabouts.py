@@ -17,6 +17,7 @@ from ssrics_like.memory.measurement import (
     ASTRAY,
     ASTRAY_M,
     BOTH,
+    measured,
 )
 from ssrics_like.memory.whereabouts import SURE, Whereabouts
 from ssrics_like.poses import Pose
@@ -65,10 +66,19 @@ def test_a_doorway_is_the_same_from_the_other_side_and_no_other_way():
     # As improbable as a landmark whose direction was mismeasured, from either of two sides.
     askew = -math.log(2.0 * (ASKEW + BOTH)) + 0.5 * (math.pi / 2 / ASKEW_RAD) ** 2
     assert across == pytest.approx(straight + askew, abs=0.01)
+    # Both ways through count, each as perceiving the landmark there, so turned, has it.
+    before, onward = whereabouts.hypotheses[0].fix, whereabouts._links.seen_from("L4")["L2"]
+    drift, place = Link(Pose(0.0, 0.0, 0.0), 0.0, 0.0), Pose(4.0, 0.0, 0.0)
+    through, reverse = (
+        measured(before, onward, drift, Pose(4.0, 0.0, turn), 0.25, 0.2).nats
+        for turn in (0.0, math.pi)
+    )
+    assert straight == pytest.approx(-np.logaddexp(-through, -reverse), abs=1e-9)
     undirected = here(4.0, 0.0, math.pi / 2, 20.0, directed=False)
-    # A direction that is hit costs a little too, as it is known by two links only.
     nothing_told = whereabouts.expect(undirected, names)["L2"]
-    assert straight - 0.01 < nothing_told < straight
+    assert nothing_told == pytest.approx(
+        measured(before, onward, drift, place, 0.25).nats, abs=1e-9
+    )
 
 
 def test_the_longer_the_way_the_less_a_distance_counts():
@@ -165,7 +175,7 @@ def test_a_lost_robot_must_be_sure_until_enough_landmarks_have_fitted():
     for i, name in enumerate(names[:8]):
         at = here(4.0 * i, 0.0, 0.0, 4.0 * i)
         whereabouts.expect(at, names)
-        needed = 0.0 if i + 1 == 8 else SURE[min(i, 2)]
+        needed = 0.0 if i + 1 == 8 else SURE[min(i, len(SURE) - 1)]
         assert whereabouts.settled(name, needed)
         assert needed == 0.0 or not whereabouts.settled(name, needed - 0.01)
         whereabouts.doubt(at, evidence, -10.0)

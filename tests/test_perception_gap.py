@@ -97,6 +97,44 @@ def test_a_doorway_lies_in_one_place_whichever_way_it_is_passed():
             assert abs(math.remainder(gap.theta_rad - through, math.tau)) < 0.18
 
 
+def after(grid, start, places):
+    """Return the surroundings as they are known after a drive."""
+    surroundings = Surroundings()
+    for o in drive(grid, start, places):
+        ranges = condition(o.scan.ranges_m, 8.0, 5).ranges_m
+        surroundings.update(o.true_pose, o.scan.bearings_rad, ranges, o)
+    return surroundings
+
+
+@pytest.mark.parametrize("through_rad", [-0.8, -0.4, 0.0, 0.4, 0.8])
+@pytest.mark.parametrize("way", [line((2.6, 1.5), (3.4, 1.5)), line((2.6, 1.3), (3.4, 1.7))])
+def test_the_frame_of_a_doorway_hangs_neither_on_the_way_nor_on_how_well_it_is_known(
+    way, through_rad
+):
+    surroundings = after(two_rooms(1.0), (1.0, 1.5, 0.0), line((1.0, 1.5), (4.5, 1.5)))
+    found = surroundings.doorway_on(way, through_rad)
+    assert found.middle.distance_m(Pose(3.0, 1.5, 0.0)) < 0.08
+    assert abs(found.middle.theta_rad) < 0.1
+    assert found.width_m == pytest.approx(1.0, abs=0.1)
+
+
+def test_one_place_in_a_doorway_tells_where_it_is():
+    surroundings = after(two_rooms(1.0), (1.0, 1.5, 0.0), line((1.0, 1.5), (4.5, 1.5)))
+    found = surroundings.doorway_on(np.array([[3.0, 1.6]]), 0.0)
+    assert found.middle.distance_m(Pose(3.0, 1.5, 0.0)) < 0.08
+
+
+@pytest.mark.parametrize("walls", [[], [(3.9, 0.0, 4.1, 3.5)]])
+def test_without_something_on_both_sides_of_the_way_there_is_no_doorway(walls):
+    surroundings = after(room(8.0, 8.0, walls=walls), (2.0, 4.0, 0.0), line((2.0, 4.0), (6.0, 4.0)))
+    assert surroundings.doorway_on(line((3.6, 4.0), (4.4, 4.0)), 0.0) is None
+
+
+def test_a_way_through_a_wall_tells_nothing():
+    surroundings = after(two_rooms(1.0), (1.0, 1.5, 0.0), line((1.0, 1.5), (4.5, 1.5)))
+    assert surroundings.doorway_on(np.array([[2.92, 0.8]]), 0.0) is None
+
+
 def test_a_mirror_image_looks_the_same():
     walls = [(2.9, 0.0, 3.1, 1.0), (2.9, 2.0, 3.1, 4.0), (3.1, 2.0, 4.5, 2.1)]
     grid = room(6.0, 4.0, walls=walls)

@@ -1,6 +1,7 @@
 """Reflexes along the way: a doorway is seen once each time, wherever, however fast, however turned."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -214,3 +215,19 @@ def test_a_gap_wider_than_doorways_that_the_robot_turns_back_in_has_neither_dire
         assert np.isnan(agreement(reflex.view, reflex.view[None])).all()
     through = seen_around(THERE, grid=two_rooms(1.8), cue=narrower(2.0))
     assert [reflex.directed for reflex in through] == [True]
+
+
+@pytest.mark.parametrize("jump_m", [8.0, 15.0])
+def test_of_a_doorway_that_the_robot_was_carried_away_from_nothing_more_is_known(jump_m):
+    """The map is another one by the time at which it is decided that it was a doorway."""
+    carried = [
+        replace(o, pose=Pose(o.pose.x_m, o.pose.y_m + jump_m, o.pose.theta_rad))
+        if o.pose.x_m > 3.45
+        else o
+        for o in drive()
+    ]
+    fired, _ = reflexes(carried, profile=AROUND)
+    (reflex,) = [reflex for reflex, _ in fired if reflex.structure == "doorway"]
+    assert not reflex.directed
+    assert np.isnan(agreement(reflex.view, reflex.view[None])).all()
+    assert math.hypot(reflex.pose.x_m - DOOR[0], reflex.pose.y_m - DOOR[1]) <= 0.3

@@ -132,7 +132,8 @@ def _by_place(
 def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
     """Return the same, given its direction and from which side it looks like what is seen.
 
-    From the other side a doorway is the same, half a turn off.
+    From the other side a doorway is the same, half a turn off. Both sides count for how probable it
+    is; where it lies, and how it is turned, is told by the more probable one.
     """
     assert case.onward is not None
     before, drift, place = case.before.fix, sd.since(case.before, here), here.place
@@ -142,7 +143,7 @@ def _by_direction(case: Case, here: Here, sd: Uncertainty, seen: Sides) -> Case:
         at = Pose(place.x_m, place.y_m, theta_rad)
         if_so = measured(before, case.onward, drift, at, sd.place_m, _told_rad(side, sd))
         found.append(if_so._replace(nats=if_so.nats - side.nats))
-    one, other = sorted(found, key=lambda one: one.nats)
+    one, other = sorted(found, key=lambda side: side.nats)
     nats = one.nats - math.log1p(math.exp(one.nats - other.nats))
     return case._replace(nats=nats, fix=one.fix, turned_rad=one.turned_rad)
 

@@ -13,15 +13,10 @@ probable by how much room there is to err in.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
+from typing import NamedTuple
 
 from ssrics_like.memory.links import Link
 from ssrics_like.poses import Pose
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 ASTRAY_M, ASKEW_RAD = 0.33, 0.9
 """How far astray a landmark is perceived now and then, and how far askew (standard deviations)."""
@@ -38,7 +33,8 @@ class Measured(NamedTuple):
         Minus the logarithm of how probable it was to perceive it so: 0 for one that was known for
         certain and hit.
     fix : Link
-        The frame, in that of path integration.
+        The frame, in that of path integration. Its variances are the greatest along any line, and
+        hold how far apart it lies by what may have happened, a hit or an outlier.
     turned_rad : float
         By how much the frame of the landmark before is turned against what was believed.
     """
@@ -72,14 +68,19 @@ def measured(
         How exactly landmarks are perceived (standard deviations); infinite where no direction was.
     """
     way = _way(before, onward, drift, place)
-    hit_m2, hit_rad2 = place_sd_m**2, direction_sd_rad**2
-    astray_m2, askew_rad2 = max(ASTRAY_M, place_sd_m) ** 2, max(ASKEW_RAD, direction_sd_rad) ** 2
-    return _mixed([
-        (HIT, way.ended(hit_m2, hit_rad2)),
-        (ASTRAY, way.ended(astray_m2, hit_rad2)),
-        (ASKEW, way.ended(hit_m2, askew_rad2)),
-        (BOTH, way.ended(astray_m2, askew_rad2)),
-    ])  # fmt: skip
+    ways, hit_m2, astray_m2 = [way], place_sd_m**2, max(ASTRAY_M, place_sd_m) ** 2
+    if math.isinf(direction_sd_rad):
+        often = [(HIT + ASKEW, hit_m2, math.inf), (ASTRAY + BOTH, astray_m2, math.inf)]
+    else:
+        hit_rad2, askew_rad2 = direction_sd_rad**2, max(ASKEW_RAD, direction_sd_rad) ** 2
+        often = [
+            (HIT, hit_m2, hit_rad2), (ASTRAY, astray_m2, hit_rad2),
+            (ASKEW, hit_m2, askew_rad2), (BOTH, astray_m2, askew_rad2),
+        ]  # fmt: skip
+        if abs(way.askew_rad) > 0.5 * math.pi:  # it may as well be turned the other way round
+            other_rad = way.askew_rad - math.copysign(math.tau, way.askew_rad)
+            ways.append(way._replace(askew_rad=other_rad))
+    return _mixed([(n, each.ended(m2, rad2)) for each in ways for n, m2, rad2 in often])
 
 
 class _Way(NamedTuple):
@@ -163,24 +164,24 @@ def _way(before: Link, onward: Link, drift: Link, place: Pose) -> _Way:
 def _mixed(kinds: list[tuple[float, Measured]]) -> Measured:
     """Return mean and variances of what may have been measured, each so often."""
     least = min(kind.nats for _, kind in kinds)
-    odds = np.array([often * math.exp(least - kind.nats) for often, kind in kinds])
-    total = odds.sum()
-    shares = odds / total
-    one, poses = kinds[0][1].fix.pose, [kind.fix.pose for _, kind in kinds]
-    turns = [math.remainder(pose.theta_rad - one.theta_rad, math.tau) for pose in poses]
-    off = np.array([
-        (pose.x_m - one.x_m, pose.y_m - one.y_m, turn)
-        for pose, turn in zip(poses, turns, strict=True)
-    ])  # fmt: skip
-    own = np.array([(k.fix.variance_m2, k.fix.variance_rad2, k.turned_rad) for _, k in kinds])
-    x_m, y_m, turn_rad = mean = _mean(shares, off)
-    variance_m2, variance_rad2, turned_rad = _mean(shares, own)
-    x_m2, y_m2, turn_rad2 = _mean(shares, (off - mean) ** 2)
-    pose = Pose(one.x_m + x_m, one.y_m + y_m, math.remainder(one.theta_rad + turn_rad, math.tau))
-    fix = Link(pose, variance_m2 + x_m2 + y_m2, variance_rad2 + turn_rad2)
+    odds = [often * math.exp(least - kind.nats) for often, kind in kinds]
+    total = sum(odds)
+    one = kinds[0][1].fix.pose
+    x_m = y_m = turn_rad = turned_rad = square_m2 = square_rad2 = 0.0
+    for odd, (_, (_, (pose, variance_m2, variance_rad2), own_turned_rad)) in zip(
+        odds, kinds, strict=True
+    ):
+        share = odd / total
+        dx_m, dy_m = pose.x_m - one.x_m, pose.y_m - one.y_m
+        turn = math.remainder(pose.theta_rad - one.theta_rad, math.tau)
+        x_m, y_m, turn_rad = x_m + share * dx_m, y_m + share * dy_m, turn_rad + share * turn
+        turned_rad += share * own_turned_rad
+        # Along the line on which they lie apart, where it is greatest.
+        square_m2 += share * (variance_m2 + dx_m**2 + dy_m**2)
+        square_rad2 += share * (variance_rad2 + turn**2)
+    fix = Link(
+        Pose(one.x_m + x_m, one.y_m + y_m, math.remainder(one.theta_rad + turn_rad, math.tau)),
+        max(square_m2 - x_m**2 - y_m**2, 0.0),
+        max(square_rad2 - turn_rad**2, 0.0),
+    )
     return Measured(least - math.log(total), fix, turned_rad)
-
-
-def _mean(shares: NDArray[np.float64], rows: NDArray[np.float64]) -> list[float]:
-    mean: list[float] = (shares[:, np.newaxis] * rows).sum(axis=0).tolist()
-    return mean

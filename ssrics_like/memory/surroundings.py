@@ -155,7 +155,7 @@ class Places(NamedTuple):
     lengths : ndarray of float32, shape (places, directions)
         Metres; beyond all others where unknown.
     levels : ndarray of uint8, shape (places, directions)
-        The same in whole steps.
+        The same in whole steps, `LEVELS` where unknown.
     vistas : ndarray of float32, shape (places, directions)
         Metres; 0 where nothing was seen.
     """
@@ -180,7 +180,7 @@ class Places(NamedTuple):
 
 
 def by_direction(places: NDArray[np.float32]) -> Places:
-    """Make ready what is remembered of places, shape (n, 3 directions), to be compared."""
+    """Make ready what is remembered of places, shape (n, 3 directions), finite, to be compared."""
     # Compiled code is loaded only where it is needed.
     from ssrics_like.memory.surroundings_bounds import LEVEL_M, LEVELS  # noqa: PLC0415
     from ssrics_like.memory.surroundings_kernels import HIDDEN_M  # noqa: PLC0415
@@ -207,8 +207,11 @@ def _agreement(
     """
     # Compiled code is loaded only where it is needed.
     from ssrics_like.memory import surroundings_kernels  # noqa: PLC0415
+    from ssrics_like.memory.surroundings_bounds import MOST  # noqa: PLC0415
 
     n, directions = places.lengths.shape
+    if directions > MOST:
+        raise ValueError(f"views of {directions} directions: at most {MOST} can be compared")
     lengths = view[:directions].astype(np.float64)
     seen = view[directions : 2 * directions] < UNKNOWN_M
     looked = np.empty((len(AHEAD_M), directions))

@@ -23,6 +23,8 @@ LANES = POINTS + 1
 """Bytes for a side: a bound for each point, and how many directions are compared."""
 LEVEL_M, LEVELS = 0.0625, 96
 """How long a step is, and in how many lengths are coded."""
+MOST = 63
+"""A byte bounds how far so many directions agree at most, those of strange places in half."""
 QUARTERS = 4
 """Bounds are told in quarters of a direction: float32 adds those without rounding."""
 ROUNDING = 1e-5

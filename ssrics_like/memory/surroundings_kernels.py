@@ -93,7 +93,7 @@ def best_agreements(
     Parameters
     ----------
     views : ndarray, shape (POINTS, directions)
-        Lengths seen from each point, metres; of 63 directions at most.
+        Lengths seen from each point, metres; of `MOST` directions at most.
     seen : ndarray, shape (directions,)
         Which of them are known.
     asides : ndarray, shape (TURNS,)

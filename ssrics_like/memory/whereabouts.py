@@ -22,9 +22,10 @@ from ssrics_like.poses import Pose
 ELSEWHERE = 0.05
 """Weight of the hypothesis that the robot may be anywhere, beside that of a landmark that begins a
 new part of the graph, or of being where it is said to begin."""
-SURE = (0.99, 0.98, 0.93)
+SURE = (0.97, 0.97, 0.93, 0.9)
 """So sure a robot that was lost must be of a landmark until its whereabouts are proven, if it is
-the first that fits, the second, or a later one: buildings have rows of doorways that look alike."""
+the first that fits, the second, the third, or a later one: buildings have rows of doorways that
+look alike."""
 PROOF = 6.0
 """Nothing else fits if it is so much less probable (logarithm)."""
 ENOUGH = 3

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 LIMIT_M = 2.5  # a wall farther aside bounds no gap
 TURNS, TURN_RAD = 10, math.radians(5.0)  # the line between the jambs is sought so far either way
 OBLIQUE_M = 0.02  # what a turn of 5 degrees costs, so that of equal gaps the straight one is taken
+ASKEW_M = 0.01  # the same where the direction through is nearly known
 NEARLY_M = 0.1  # lines longer by that than the shortest one cross the same doorway: walls are thick
 LEAST_M = 0.5  # no robot goes through less: the way is not where it was believed to be
 BESIDE_M, BESIDE_TURNS = 0.3, 3  # of lines nearly as short, one farther off crosses another gap
@@ -69,7 +70,7 @@ def doorway_frame(
     ----------
     evidence, seen_m, oldest_m : as for `narrowest`
     way_m : ndarray, shape (n, 2)
-        Places along the way through the doorway, frame of the map.
+        Places along the way through the doorway, one at least; frame of the map.
     through_rad : float
         The direction through it, nearly.
 
@@ -77,10 +78,11 @@ def doorway_frame(
     -------
     tuple of float
         x and y of its middle, the direction through, and how wide it is; metres, radians. That is
-        infinite, and all else NaN, if nothing stands beside the way.
+        infinite, and all else NaN, where nothing stands on both sides of the way.
     """
     turns = 2 * TURNS + 1
-    lines = np.full((len(way_m), turns, 3), np.inf)  # length, x and y of the middle
+    costs = np.full((len(way_m), turns), np.inf)
+    lines = np.zeros((len(way_m), turns, 3))  # length, x and y of the middle
     for i in range(len(way_m)):
         x, y = way_m[i]
         for turn in range(turns):
@@ -88,23 +90,24 @@ def doorway_frame(
             dx, dy = math.cos(aside), math.sin(aside)
             to_left, _ = march(evidence, seen_m, (x, y), (dx, dy), LIMIT_M, oldest_m)
             to_right, _ = march(evidence, seen_m, (x, y), (-dx, -dy), LIMIT_M, oldest_m)
-            if to_left + to_right < LEAST_M:
+            length, off = to_left + to_right, 0.5 * (to_left - to_right)
+            if length < LEAST_M or max(to_left, to_right) >= LIMIT_M:
                 continue
-            off = 0.5 * (to_left - to_right)
-            lines[i, turn, 0] = to_left + to_right + 0.5 * OBLIQUE_M * abs(turn - TURNS)
-            lines[i, turn, 1], lines[i, turn, 2] = x + off * dx, y + off * dy
-    best_turn = int(np.argmin(lines[:, :, 0])) % turns
-    best = lines[int(np.argmin(lines[:, best_turn, 0])), best_turn]
-    if not best[0] < 2.0 * LIMIT_M:
+            costs[i, turn] = length + ASKEW_M * abs(turn - TURNS)
+            lines[i, turn] = length, x + off * dx, y + off * dy
+    least = int(np.argmin(costs))
+    best, best_turn = lines[least // turns, least % turns], least % turns
+    most = costs[least // turns, best_turn] + NEARLY_M
+    if math.isinf(most):
         return math.nan, math.nan, math.nan, math.inf
     count = 0
     total_x = total_y = total_turn = 0.0
     for i in range(len(way_m)):
         for turn in range(turns):
-            length, x, y = lines[i, turn]
+            _, x, y = lines[i, turn]
             near = abs(turn - best_turn) <= BESIDE_TURNS
             near = near and math.hypot(x - best[1], y - best[2]) < BESIDE_M
-            if near and length <= best[0] + NEARLY_M:
+            if near and costs[i, turn] <= most:
                 count += 1
                 total_x, total_y, total_turn = total_x + x, total_y + y, total_turn + turn - TURNS
     theta = through_rad + total_turn / count * TURN_RAD

@@ -109,7 +109,7 @@ def doorway_frame(
     local : LocalMap
         The surroundings.
     way_m : ndarray, shape (n, 2)
-        Places along the way through; metres, frame of odometry.
+        Places along the way through, one at least; metres, frame of odometry.
     through_rad : float
         The direction through, nearly.
     travelled_m : float
@@ -118,7 +118,7 @@ def doorway_frame(
     Returns
     -------
     DoorwayFrame or None
-        None if nothing stands beside the way.
+        None where nothing stands on both sides of the way.
     """
     x_m, y_m, theta_rad, width_m = frame_kernels.doorway_frame(
         local.evidence, local.seen_m, way_m, through_rad, travelled_m - MEMORY_M

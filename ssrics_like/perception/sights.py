@@ -30,13 +30,13 @@ if TYPE_CHECKING:
 
 DOORWAY = "doorway"
 NECK_M = 0.4
-"""A doorway is where the gap is narrowest, at most so far from where it looks most like one."""
+"""A doorway is sought so far from where it looks most like one, as far as that is known by then."""
 WIDEST_M = 1.4
 """A gap that is no wider is the doorway, even if the robot turns back in it."""
 ASIDE_M = 0.5
-"""The robot went through: the middle of the doorway cannot lie farther from its way."""
+"""Through one that is wider the robot went: its middle cannot lie farther from the way."""
 BEFORE_M, THROUGH_M = 0.5, 0.5
-"""From so far before a doorway to so far after it, the robot got so much farther through, or it
+"""From so far before such a gap to so far after it, the robot got so much farther through, or it
 turned back; then the gap that it turned in says nothing of where the doorway is."""
 KEPT = 20  # places: two metres, more than anything is decided late
 WIDTH = FEATURES.index("width_m")
@@ -161,27 +161,38 @@ class Sights:
         )
 
     def _doorway(self, seen: Described[Sensed]) -> Pose | None:
-        """Return where the doorway is that was seen; None where no gap lies on the way."""
+        """Return where the doorway is that was seen, if its surroundings tell.
+
+        They do not where the robot was carried away since, where nothing stands on both sides of
+        its way, and where a gap is wider than a doorway and the robot did not go through.
+        """
+        if seen.place.at_m < self._surroundings.since_m:
+            return None
         near = [
             described
-            for described in self._recent
+            for described in self._known
             if abs(described.place.at_m - seen.place.at_m) <= NECK_M
         ]
-        neck = min(near, key=lambda described: float(described.measures[WIDTH]), default=seen)
+        neck = min(near, key=lambda described: float(described.measures[WIDTH]))
         way_m = np.array([(each.place.x_m, each.place.y_m) for each in near])
         found = self._surroundings.doorway_on(_denser(way_m), neck.gap.theta_rad)
         if found is None:
             return None
         middle = found.middle
         aside_m = np.hypot(*(way_m - (middle.x_m, middle.y_m)).T).min()
-        if found.width_m <= WIDEST_M or (aside_m <= ASIDE_M and self._went_through(seen, middle)):
-            return middle
-        return None
+        through = aside_m <= ASIDE_M and self._went_through(seen, middle)
+        return middle if found.width_m <= WIDEST_M or through else None
+
+    @property
+    def _known(self) -> list[Described[Sensed]]:
+        """The last places, as far as they lie in the map."""
+        since_m = self._surroundings.since_m
+        return [described for described in self._recent if described.place.at_m >= since_m]
 
     def _went_through(self, seen: Described[Sensed], gap: Pose) -> bool:
         """Tell whether the robot went on through a gap, and did not turn back in it."""
         before, after = (
-            min(self._recent, key=lambda each: abs(each.place.at_m - at_m)).place
+            min(self._known, key=lambda each: abs(each.place.at_m - at_m)).place
             for at_m in (seen.place.at_m - BEFORE_M, seen.place.at_m + BEFORE_M)
         )
         cos, sin = math.cos(gap.theta_rad), math.sin(gap.theta_rad)

@@ -69,6 +69,11 @@ class Surroundings(Generic[T]):
         Whether a wide map is kept too.
     layout : bool
         Whether the layout of places is measured; needs the wide map.
+
+    Attributes
+    ----------
+    since_m : float
+        Metres of path at which the map begins: nothing is known of the places before.
     """
 
     def __init__(self, *, wide: bool = False, layout: bool = False) -> None:
@@ -78,6 +83,7 @@ class Surroundings(Generic[T]):
         self._vista = Vista()
         self._walk: Walk[T] = Walk(STEP_M, LAG_M)
         self._mapped: tuple[float, float] | None = None
+        self.since_m = 0.0
 
     @property
     def travelled_m(self) -> float:
@@ -109,6 +115,7 @@ class Surroundings(Generic[T]):
             self._map = LocalMap()
             self._wide = None if self._wide is None else WideMap()
             self._vista = Vista()
+            self.since_m = self._walk.travelled_m
         here_m = self._walk.travelled_m
         if (
             self._mapped is None
