@@ -11,17 +11,14 @@ those that were fired more than 1.2 m from any doorway; how many is told.
 
 from __future__ import annotations
 
-import argparse
 import math
 import sys
-from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
+from bench_views import asked_for
 from numpy.typing import NDArray
 
-from ssrics_like.bench.conditions import NOMINAL
-from ssrics_like.bench.drives import OnPlan, Simulated, make_drive, stage
+from ssrics_like.bench.drives import make_drive, stage
 from ssrics_like.cues import read_cue
 from ssrics_like.library import find_cue
 from ssrics_like.perception import Observation, PerceptionBuffer, Pose
@@ -31,7 +28,6 @@ from ssrics_like.perception.sights import NECK_M, WIDTH
 from ssrics_like.perception.surroundings import Described, Surroundings
 from ssrics_like.scenarios.modules import load_perception
 
-PURPOSE = 3  # buildings of their own, in which nothing was tuned
 NEAR_M = 1.2  # what is perceived farther from any doorway is none of them
 FAR_OFF_M = 0.3
 ANSWERS = ("as perceived", "one line", "the robot")
@@ -80,18 +76,9 @@ def errors(pose: Pose, lines_m: NDArray[np.float64]) -> Errors:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--maps", nargs="*", type=Path, default=[])
-    parser.add_argument("--buildings", type=int, default=10)
-    options = parser.parse_args()
-    drifting = replace(NOMINAL, drift=0.05)
-    specs: list[Simulated | OnPlan] = [
-        Simulated(drifting, seed, PURPOSE) for seed in range(options.buildings)
-    ]
-    specs += [OnPlan(plan, 1000, drifting) for plan in options.maps]
     found: dict[str, list[Errors]] = {answer: [] for answer in ANSWERS}
     undirected = elsewhere = 0
-    for spec in specs:
+    for spec in asked_for(__doc__):
         lines_m = stage(spec).lines_m
         lines_m = lines_m[np.isfinite(lines_m).all(axis=(1, 2))]  # other places have none
         for reflex, poses in answers(make_drive(spec).observations):
@@ -103,6 +90,8 @@ def main() -> int:
             else:
                 for answer, pose in zip(ANSWERS, poses, strict=True):
                     found[answer].append(errors(pose, lines_m))
+    if not found[ANSWERS[0]]:
+        sys.exit("no doorway was perceived with a direction")
     print(
         "| doorway | n | off, median | a tenth above | > 0.3 m | turned, median | a tenth above |"
     )

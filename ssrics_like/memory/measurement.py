@@ -168,14 +168,12 @@ def _mixed(kinds: list[tuple[float, Measured]]) -> Measured:
     total = sum(odds)
     one = kinds[0][1].fix.pose
     x_m = y_m = turn_rad = turned_rad = square_m2 = square_rad2 = 0.0
-    for odd, (_, (_, (pose, variance_m2, variance_rad2), own_turned_rad)) in zip(
-        odds, kinds, strict=True
-    ):
-        share = odd / total
+    for odd, (_, kind) in zip(odds, kinds, strict=True):
+        share, (pose, variance_m2, variance_rad2) = odd / total, kind.fix
         dx_m, dy_m = pose.x_m - one.x_m, pose.y_m - one.y_m
         turn = math.remainder(pose.theta_rad - one.theta_rad, math.tau)
         x_m, y_m, turn_rad = x_m + share * dx_m, y_m + share * dy_m, turn_rad + share * turn
-        turned_rad += share * own_turned_rad
+        turned_rad += share * kind.turned_rad
         # Along the line on which they lie apart, where it is greatest.
         square_m2 += share * (variance_m2 + dx_m**2 + dy_m**2)
         square_rad2 += share * (variance_rad2 + turn**2)

@@ -17,8 +17,9 @@ from ssrics_like.compiling import compiled
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-POINTS, SIDES, TURNS = 3, 2, 5
-"""A view is looked at from so many points, from so many sides, and turned in so many ways."""
+POINTS, HALVES, TURNS = 3, 2, 5
+"""A view is looked at from so many points, as it is and half a turn aside, and turned in so many
+ways."""
 LANES = POINTS + 1
 """Bytes for a side: a bound for each point, and how many directions are compared."""
 LEVEL_M, LEVELS = 0.0625, 96
@@ -71,9 +72,9 @@ def bounds_by_level(
                 agreeing = min(1.0, max(0.0, 1.0 + nearly + ROUNDING - less))
                 told[level, j, point] = math.ceil(QUARTERS * agreeing)
     columns = directions + TURNS - 1
-    bounds = np.empty((LEVELS + 1, columns, SIDES * LANES), np.uint8)
+    bounds = np.empty((LEVELS + 1, columns, HALVES * LANES), np.uint8)
     for column in range(columns):
-        for side in range(SIDES):
-            j = (column - TURNS // 2 - side * (directions // SIDES)) % directions
+        for side in range(HALVES):
+            j = (column - TURNS // 2 - side * (directions // HALVES)) % directions
             bounds[:, column, side * LANES : (side + 1) * LANES] = told[:, j]
     return bounds.view(np.uint64)[:, :, 0]

@@ -14,10 +14,10 @@ import numpy as np
 
 from ssrics_like.compiling import compiled
 from ssrics_like.memory.surroundings_bounds import (
+    HALVES,
     LANES,
     POINTS,
     QUARTERS,
-    SIDES,
     TURNS,
     bounds_by_level,
 )
@@ -110,9 +110,9 @@ def best_agreements(
         With fewer directions known of both, two are not compared.
     strange, exact : float, bool
         A share up to `strange` may be told too small, if it need not be `exact`.
-    out : ndarray, shape (SIDES, places)
+    out : ndarray, shape (HALVES, places)
         Takes the share of directions that agree; -1 where nothing could be compared.
-    turned : ndarray, shape (SIDES, places)
+    turned : ndarray, shape (HALVES, places)
         Takes by how many directions the views are turned then.
     """
     places, directions = lengths.shape
@@ -120,14 +120,14 @@ def best_agreements(
     bounds = bounds_by_level(views, seen, same_m, same, nearly, neutral)
     # A sum begins so that in the end the top bit of a byte tells whether more may agree than in
     # strange places, or whether enough is compared.
-    begin, top = np.empty(SIDES * LANES, np.uint8), np.empty(SIDES * LANES, np.uint8)
+    begin, top = np.empty(HALVES * LANES, np.uint8), np.empty(HALVES * LANES, np.uint8)
     begin[:] = TOP - 1 - math.floor(QUARTERS * strange * directions)
     begin[POINTS::LANES] = TOP - fewest
     top[:] = TOP
     top[POINTS::LANES] = 0
     nothing, more = begin.view(np.uint64)[0], top.view(np.uint64)[0]
     sums = np.empty(TURNS, np.uint64)
-    lanes = sums.view(np.uint8).reshape(TURNS, SIDES, LANES)
+    lanes = sums.view(np.uint8).reshape(TURNS, HALVES, LANES)
     twice, twice_per_m = _twice_round(views, seen, same_m, same)
     per_m = np.empty(directions, np.float32)
     most = np.empty(TURNS * POINTS, np.float32)
@@ -145,12 +145,12 @@ def best_agreements(
         if alike:
             for i in range(directions):
                 per_m[i] = _per_m(lengths[place, i], same_m, same)
-        for side in range(SIDES):
+        for side in range(HALVES):
             enough = False
             for turn in range(TURNS):
                 enough = enough or lanes[turn, side, POINTS] >= TOP
             out[side, place] = 0.0 if enough else -1.0
-            turned[side, place] = side * (directions // SIDES)
+            turned[side, place] = side * (directions // HALVES)
             if not (alike and enough):
                 continue
             for rank in range(TURNS):
@@ -170,7 +170,7 @@ def best_agreements(
                 if most[one] < best or most[one] <= least:
                     break
                 rank, point = divmod(one, POINTS)
-                turn = asides[rank] + side * (directions // SIDES)
+                turn = asides[rank] + side * (directions // HALVES)
                 compared = int(lanes[TURNS // 2 - asides[rank], side, POINTS]) - int(begin[POINTS])
                 share = _agreeing(
                     twice[point], twice_per_m[point], (-turn) % directions,

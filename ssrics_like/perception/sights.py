@@ -179,9 +179,10 @@ class Sights:
         if found is None:
             return None
         middle = found.middle
+        if found.width_m <= WIDEST_M:
+            return middle
         aside_m = np.hypot(*(way_m - (middle.x_m, middle.y_m)).T).min()
-        through = aside_m <= ASIDE_M and self._went_through(seen, middle)
-        return middle if found.width_m <= WIDEST_M or through else None
+        return middle if aside_m <= ASIDE_M and self._went_through(seen, middle) else None
 
     @property
     def _known(self) -> list[Described[Sensed]]:
